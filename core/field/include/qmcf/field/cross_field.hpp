@@ -1,0 +1,68 @@
+#pragma once
+
+#include <array>
+#include <complex>
+#include <cstdint>
+#include <vector>
+
+#include "qmcf/base/progress.hpp"
+#include "qmcf/base/result.hpp"
+#include "qmcf/mesh/patch.hpp"
+#include "qmcf/mesh/surface.hpp"
+
+namespace qmcf {
+
+/// A point where the cross field has no direction.
+struct Singularity {
+  SurfacePoint point;      ///< Zero of the interpolated field.
+  std::int32_t index = 0;  ///< Quarter turns: +1 becomes a vertex with 3 quads, -1 one with 5.
+};
+
+/// The orthonormal frame of a vertex: the direction with angle a is x cos a + y sin a.
+struct TangentFrame {
+  Vec3 x;
+  Vec3 y;
+  Vec3 normal;
+};
+
+/// How the constraints enter the linear system (sections 3.2.2 of the paper; B1 of docs/algorithm.md).
+enum class FieldSolver : std::uint8_t { eliminate, leastSquares };
+
+/// Which constraints apply, and how the field is solved.
+struct FieldOptions {
+  bool boundary = true;      ///< Align with boundary edges.
+  bool sharp = true;         ///< Align with sharp and label edges.
+  bool nonManifold = true;   ///< Align with non-manifold edges.
+  bool curvature = true;     ///< Guide by, and pin to, reliable principal curvature directions.
+  FieldSolver solver = FieldSolver::eliminate;
+};
+
+/// A cross per vertex and what follows from it.
+/// A cross is stored as the fourth power of a unit complex number: angle a and a + k pi/2 are the same u = e^(4 i a),
+/// a measured in the vertex's TangentFrame.
+struct CrossField {
+  IdMap<VertexId, std::complex<double>> cross;      ///< |u| = 1.
+  IdMap<VertexId, TangentFrame> frame;
+  IdMap<VertexId, std::uint8_t> constrained;        ///< 0 free, 1 boundary or other edge, 2 curvature, 3 user.
+  IdMap<TriangleId, std::int32_t> index;            ///< Quarter turns around each triangle.
+  /// Per triangle: the field at its corners as u in the triangle's own frame (x along its first half-edge, normal of the
+  /// triangle), continuous across the corners: their barycentric mean interpolates.
+  IdMap<TriangleId, std::array<std::complex<double>, 3>> corner;
+  std::vector<Singularity> singularities;
+  double energy = 0.0;                              ///< Dirichlet energy of the normalised field.
+};
+
+/// The four directions of the field at a point, as unit vectors in the triangle's plane, counter-clockwise.
+/// At the exact zero of the field the direction is the first corner's.
+std::array<Vec3, 4> crossDirections(const Surface& surface, const CrossField& field, const SurfacePoint& point);
+
+/// How well the direction is defined at a point, in [0, 1]: the length of the interpolated u.
+double crossConfidence(const CrossField& field, const SurfacePoint& point);
+
+/// The smoothest cross field of the patch under its constraints (Knoeppel et al. 2013; section 3 of the paper).
+/// edgeKinds: per edge of the B-rep, an EdgeKind as integer, to switch constraints by kind.
+/// Errors: cancelled, internal (factorisation failed).
+Result<CrossField> computeCrossField(const Patch& patch, const std::vector<std::uint8_t>& edgeKinds,
+                                     const FieldOptions& options, Progress& progress);
+
+}  // namespace qmcf

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+#include "qmcf/base/progress.hpp"
+#include "qmcf/base/result.hpp"
+#include "qmcf/mesh/quad_mesh.hpp"
+#include "qmcf/mesh/triangle_mesh.hpp"
+
+namespace qmcf {
+
+enum class InputFormat : std::uint8_t { obj, stlAscii, stlBinary, ply };
+std::string_view inputFormatName(InputFormat format);
+
+/// A model as read: polygons are triangulated, nothing is welded or repaired.
+struct ReadModel {
+  TriangleMesh mesh;
+  InputFormat format = InputFormat::obj;
+  std::int64_t polygons = 0;  ///< Faces of the file, before triangulation.
+};
+
+/// Reads a model from memory; the format is found from the content. Allocations are bounded by bytes.size().
+/// Errors: emptyInput, unknownFormat, truncatedInput, malformedInput, indexOutOfRange, nonFiniteCoordinate, tooLarge,
+/// cancelled; messages name the line or the element.
+Result<ReadModel> readModel(std::span<const std::byte> bytes, Progress& progress);
+
+/// Reads an OBJ or PLY of triangles and quadrilaterals as it is, for `qmcf check`.
+Result<QuadMesh> readQuadMesh(std::span<const std::byte> bytes, Progress& progress);
+
+}  // namespace qmcf

@@ -1,0 +1,87 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "qmcf/base/progress.hpp"
+#include "qmcf/base/result.hpp"
+#include "qmcf/field/cross_field.hpp"
+#include "qmcf/mesh/patch.hpp"
+#include "qmcf/mesh/quad_mesh.hpp"
+#include "qmcf/mesh/triangle_mesh.hpp"
+#include "qmcf/quality/quality.hpp"
+#include "qmcf/topology/brep.hpp"
+#include "qmcf/topology/repair.hpp"
+
+namespace qmcf {
+
+/// Which advancing front makes the quads.
+enum class Mode : std::uint8_t {
+  qmcf,    ///< Side edges placed by cross field and size field (the paper).
+  qmorph,  ///< The original Q-Morph (Owen et al. 1999), the paper's baseline.
+};
+
+/// All options of a run. The same names are used in C++, JSON and TypeScript.
+struct MeshOptions {
+  std::optional<double> size;         ///< Element edge length in units of the model, > 0. Excludes quads.
+  std::optional<std::int64_t> quads;  ///< Number of elements to aim at, 1 to 10,000,000. Default 3000 if size is unset.
+  double featureAngle = 30.0;         ///< Dihedral angle in degrees, (0, 180), from which an edge is sharp.
+  Mode mode = Mode::qmcf;
+  double gradation = 0.2;             ///< Largest slope of the size field, (0, 1].
+  bool alignBoundary = true;          ///< Field constraint: boundary edges.
+  bool alignSharp = true;             ///< Field constraint: sharp edges.
+  bool alignNonManifold = true;       ///< Field constraint: non-manifold edges.
+  bool alignCurvature = true;         ///< Field constraint: principal curvature.
+};
+
+/// How one face was meshed.
+struct FaceReport {
+  std::int32_t face = kNone;
+  std::string method;                 ///< "qmcf", "qmorph", "recombined", "triangles": the step of the ladder that worked.
+  std::string reason;                 ///< Why the earlier steps did not; empty for the first.
+  std::int64_t quads = 0;
+  std::int64_t triangles = 0;
+};
+
+struct StageTime {
+  Stage stage = Stage::read;
+  double seconds = 0.0;
+};
+
+/// The input as the later stages see it; enough to draw the part.
+struct InspectResult {
+  RepairedMesh repaired;
+  Brep brep;
+};
+
+/// The cross field of every face.
+struct FieldResult {
+  InspectResult input;
+  double size = 0.0;                   ///< The element size the field was made for.
+  std::vector<Patch> patches;          ///< One per face of the B-rep.
+  std::vector<CrossField> fields;      ///< One per patch.
+};
+
+/// A mesh and everything a person should know about it.
+struct MeshResult {
+  InspectResult input;
+  double size = 0.0;
+  QuadMesh mesh;
+  QualityReport quality;
+  std::vector<FaceReport> faces;
+  std::int64_t fieldSingularities = 0;
+};
+
+/// Repair and B-rep only. Errors: as repair() and recoverBrep().
+Result<InspectResult> inspectSurface(const TriangleMesh& input, double featureAngle, Progress& progress);
+/// Up to the cross field.
+Result<FieldResult> computeField(const TriangleMesh& input, const MeshOptions& options, Progress& progress);
+/// The whole way: a valid quad-dominant mesh of the input, or an error that says why there is none.
+Result<MeshResult> meshSurface(const TriangleMesh& input, const MeshOptions& options, Progress& progress);
+
+/// The error for the first option out of range, if any.
+std::optional<Error> validateOptions(const MeshOptions& options);
+
+}  // namespace qmcf

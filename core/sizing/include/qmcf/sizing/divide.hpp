@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "qmcf/base/result.hpp"
+#include "qmcf/base/vec.hpp"
+#include "qmcf/mesh/triangle_mesh.hpp"
+#include "qmcf/sizing/size_field.hpp"
+#include "qmcf/topology/brep.hpp"
+
+namespace qmcf {
+
+/// The nodes that the faces share along one edge of the B-rep.
+struct EdgeDivision {
+  std::vector<std::int32_t> nodes;  ///< Node ids from start to end; n divisions have n + 1 entries (closed: first == last).
+  std::vector<double> arcLength;    ///< Per entry: arc length from the start of the edge, ascending.
+};
+
+/// Every edge of the B-rep cut into whole elements.
+struct DividedEdges {
+  std::vector<Vec3> nodes;            ///< Positions, on the edges; B-rep vertices come first, in their order.
+  std::vector<double> nodeSize;       ///< Per node: target length.
+  std::vector<EdgeDivision> edges;    ///< Per edge of the B-rep.
+  std::int64_t oddFaces = 0;          ///< Faces whose number of boundary edges could not be made even.
+};
+
+/// Divides by the size field: round(integral of ds / h), at least 1 (at least 3 on a closed edge), with nodes at equal
+/// parts of the integral; then solves parity over all faces, so that each has an even number of boundary edges wherever
+/// that is possible (E4 of docs/algorithm.md). minimumDivisions: per edge, a lower bound, or empty.
+DividedEdges divideEdges(const TriangleMesh& mesh, const Brep& brep, const SizeField& size,
+                         const std::vector<std::int32_t>& minimumDivisions = {});
+
+}  // namespace qmcf

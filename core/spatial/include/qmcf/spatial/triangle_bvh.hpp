@@ -1,0 +1,48 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "qmcf/base/vec.hpp"
+
+namespace qmcf {
+
+/// The point of a triangle mesh closest to a query.
+struct ClosestPoint {
+  std::int32_t triangle = -1;
+  std::array<double, 3> barycentric{};
+  Vec3 position;
+  double squaredDistance = 0.0;
+};
+
+/// A tree of boxes over a triangle mesh for closest-point queries. It keeps copies of what it needs.
+/// Build one per face of the B-rep, so that a query never lands on another sheet.
+class TriangleBvh {
+ public:
+  TriangleBvh() = default;
+  /// Complexity O(n log n). Zero-area triangles are allowed. \pre indices are in range, positions finite.
+  TriangleBvh(const std::vector<Vec3>& positions, const std::vector<std::array<std::int32_t, 3>>& triangles);
+
+  [[nodiscard]] bool empty() const { return triangles_.empty(); }
+  /// The closest point; ties go to the smallest triangle id. \pre !empty()
+  [[nodiscard]] ClosestPoint closest(const Vec3& query) const;
+  /// As above among triangles whose unit normal n has dot(n, normal) >= minCosine; without any such triangle, as above.
+  [[nodiscard]] ClosestPoint closest(const Vec3& query, const Vec3& normal, double minCosine) const;
+
+ private:
+  struct Node {
+    Vec3 low;
+    Vec3 high;
+    std::int32_t first = 0;  ///< Leaf: first entry of order_. Inner: left child; the right child follows the left subtree.
+    std::int32_t count = 0;  ///< Leaf: number of entries. Inner: 0.
+    std::int32_t right = 0;  ///< Inner: right child.
+  };
+
+  std::vector<Node> nodes_;
+  std::vector<std::int32_t> order_;
+  std::vector<std::array<Vec3, 3>> triangles_;
+  std::vector<Vec3> normals_;
+};
+
+}  // namespace qmcf

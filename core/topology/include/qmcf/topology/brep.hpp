@@ -1,0 +1,94 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "qmcf/base/progress.hpp"
+#include "qmcf/base/result.hpp"
+#include "qmcf/mesh/ids.hpp"
+#include "qmcf/mesh/surface.hpp"
+#include "qmcf/mesh/triangle_mesh.hpp"
+
+namespace qmcf {
+
+/// Why an edge is an edge. Where several hold, the first in this order.
+enum class EdgeKind : std::uint8_t { nonManifold, boundary, sharp, label };
+std::string_view edgeKindName(EdgeKind kind);
+
+/// A point where edges end, or where one edge turns sharply.
+struct BrepVertex {
+  std::int32_t point = kNone;  ///< Vertex of the mesh.
+  bool artificial = false;     ///< Put on a closed smooth edge only so that it has an end.
+};
+
+/// A chain of mesh edges between two B-rep vertices (the same one when closed).
+struct BrepEdge {
+  EdgeKind kind = EdgeKind::sharp;
+  std::vector<std::int32_t> points;  ///< Vertices of the mesh from start to end, at least two; closed: first == last.
+  std::int32_t start = kNone;        ///< B-rep vertex.
+  std::int32_t end = kNone;          ///< B-rep vertex.
+  double length = 0.0;
+};
+
+/// One use of an edge by a loop. The face lies on its left.
+struct Coedge {
+  std::int32_t edge = kNone;
+  bool reversed = false;         ///< The loop runs from the edge's end to its start.
+  double cornerAngle = 0.0;      ///< Angle of the face's fan at the coedge's first vertex, in radians.
+  std::int32_t cornerQuads = 2;  ///< Quads wanted there: round(2 * angle / pi) in 1..4; 2 at an artificial vertex.
+};
+
+struct BrepLoop {
+  std::vector<Coedge> coedges;
+};
+
+/// A connected piece of the surface between edges.
+struct BrepFace {
+  std::vector<std::int32_t> triangles;  ///< Triangles of the mesh, ascending.
+  std::vector<BrepLoop> loops;          ///< Empty for a closed smooth surface.
+  std::int32_t body = kNone;
+  std::string name;                     ///< From the file's labels, or "face N".
+  double area = 0.0;
+};
+
+/// A connected component of the mesh.
+struct BrepBody {
+  std::vector<std::int32_t> faces;
+  bool closed = false;
+};
+
+/// The boundary representation recovered from a repaired mesh.
+struct Brep {
+  std::vector<BrepVertex> vertices;
+  std::vector<BrepEdge> edges;
+  std::vector<BrepFace> faces;
+  std::vector<BrepBody> bodies;
+  std::vector<std::int32_t> triangleFace;  ///< Per triangle of the mesh.
+};
+
+/// Feature recognition.
+struct BrepOptions {
+  double featureAngle = 30.0;  ///< Dihedral angle in degrees, in (0, 180), from which an edge is sharp.
+};
+
+/// Cuts the mesh into faces along sharp, boundary, non-manifold and label edges.
+/// \pre mesh comes from repair(): consistent orientation across two-sided edges, no degenerate triangle.
+/// Complexity O(n log n). Errors: cancelled, noSurface.
+Result<Brep> recoverBrep(const TriangleMesh& mesh, const BrepOptions& options, Progress& progress);
+
+/// The triangles of one face as a manifold surface of its own, cut open along its edges.
+struct FaceSurface {
+  Surface surface;
+  std::vector<std::int32_t> vertexPoint;      ///< Per surface vertex: vertex of the mesh. A cut vertex occurs repeatedly.
+  std::vector<std::int32_t> triangleOrigin;   ///< Per surface triangle: triangle of the mesh.
+  IdMap<HalfedgeId, std::int32_t> edge;       ///< Edge of the B-rep under a boundary half-edge; kNone elsewhere.
+  /// Per boundary loop of the surface, in the order of BrepFace::loops: its half-edges, starting where the loop's first
+  /// coedge starts.
+  std::vector<std::vector<HalfedgeId>> loops;
+};
+
+/// \pre face is an index into brep.faces; mesh is the one given to recoverBrep().
+FaceSurface faceSurface(const TriangleMesh& mesh, const Brep& brep, std::int32_t face);
+
+}  // namespace qmcf
