@@ -4,7 +4,8 @@
 
 /// Transcendental functions with the same result, to the last bit, on every platform.
 /// The C libraries of browsers, Node and native systems differ there; whatever influences a mesh goes through these.
-/// Only + - * / sqrt, comparisons and bit operations are used inside. Error below 2 ulp on the ranges given.
+/// Only + - * / sqrt, floor, fmod (all exactly defined), comparisons and bit operations are used inside. Error below 2
+/// ulp on the ranges given.
 namespace qmcf::math {
 
 inline constexpr double kPi = 3.141592653589793238462643383279502884;
@@ -16,13 +17,13 @@ double cos(double x);
 double atan2(double y, double x);
 /// Arc cosine; the argument is clamped to [-1, 1].
 double acos(double x);
-/// Exponential; 0 below -745, largest double above 709.
+/// Exponential; 0 below -745.2, the largest double above 709.78.
 double exp(double x);
-/// Natural logarithm of x > 0.
+/// Natural logarithm of x > 0; -infinity for 0, NaN below.
 double log(double x);
-/// Base-2 logarithm of x > 0.
+/// Base-2 logarithm of x > 0; -infinity for 0, NaN below.
 double log2(double x);
-/// Magnitude without overflow.
+/// sqrt(x^2 + y^2) without overflow or underflow on the way.
 double hypot(double x, double y);
 
 /// Angle of z in (-pi, pi].
