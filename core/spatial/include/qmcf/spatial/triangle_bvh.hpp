@@ -10,11 +10,14 @@ namespace qmcf {
 
 /// The point of a triangle mesh closest to a query.
 struct ClosestPoint {
-  std::int32_t triangle = -1;
+  std::int32_t triangle = -1;  ///< -1 when the query was about a single triangle.
   std::array<double, 3> barycentric{};
   Vec3 position;
   double squaredDistance = 0.0;
 };
+
+/// The point of the triangle abc closest to the query. Any triangle will do, also one without area.
+ClosestPoint closestPointOnTriangle(const Vec3& query, const Vec3& a, const Vec3& b, const Vec3& c);
 
 /// A tree of boxes over a triangle mesh for closest-point queries. It keeps copies of what it needs.
 /// Build one per face of the B-rep, so that a query never lands on another sheet.
@@ -24,6 +27,7 @@ class TriangleBvh {
   /// Complexity O(n log n). Zero-area triangles are allowed. \pre indices are in range, positions finite.
   TriangleBvh(const std::vector<Vec3>& positions, const std::vector<std::array<std::int32_t, 3>>& triangles);
 
+  /// True without triangles.
   [[nodiscard]] bool empty() const { return triangles_.empty(); }
   /// The closest point; ties go to the smallest triangle id. \pre !empty()
   [[nodiscard]] ClosestPoint closest(const Vec3& query) const;
@@ -34,15 +38,18 @@ class TriangleBvh {
   struct Node {
     Vec3 low;
     Vec3 high;
-    std::int32_t first = 0;  ///< Leaf: first entry of order_. Inner: left child; the right child follows the left subtree.
+    std::int32_t first = 0;  ///< Leaf: first entry of order_. Inner: left child.
     std::int32_t count = 0;  ///< Leaf: number of entries. Inner: 0.
     std::int32_t right = 0;  ///< Inner: right child.
   };
 
+  template <class Accept>
+  ClosestPoint search(const Vec3& query, Accept accept) const;
+
   std::vector<Node> nodes_;
-  std::vector<std::int32_t> order_;
-  std::vector<std::array<Vec3, 3>> triangles_;
-  std::vector<Vec3> normals_;
+  std::vector<std::int32_t> order_;             ///< Triangle ids, leaf by leaf.
+  std::vector<std::array<Vec3, 3>> triangles_;  ///< Corners in the order of order_.
+  std::vector<Vec3> normals_;                   ///< Unit normals in the order of order_.
 };
 
 }  // namespace qmcf

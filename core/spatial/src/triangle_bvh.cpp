@@ -1,0 +1,212 @@
+// Closest point on a triangle by its Voronoi regions: Ericson, Real-Time Collision Detection, section 5.1.5.
+#include "qmcf/spatial/triangle_bvh.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <limits>
+#include <numeric>
+
+namespace qmcf {
+namespace {
+
+constexpr std::int32_t kLeafSize = 4;
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+double component(const Vec3& v, int axis) { return axis == 0 ? v.x : (axis == 1 ? v.y : v.z); }
+
+double squaredDistanceToBox(const Vec3& p, const Vec3& low, const Vec3& high) {
+  const Vec3 gap{std::max({low.x - p.x, 0.0, p.x - high.x}), std::max({low.y - p.y, 0.0, p.y - high.y}),
+                 std::max({low.z - p.z, 0.0, p.z - high.z})};
+  return squaredNorm(gap);
+}
+
+ClosestPoint weighted(const Vec3& query, const std::array<Vec3, 3>& corner, const std::array<double, 3>& weight) {
+  ClosestPoint result;
+  result.barycentric = weight;
+  result.position = corner[0] * weight[0] + corner[1] * weight[1] + corner[2] * weight[2];
+  result.squaredDistance = squaredNorm(result.position - query);
+  return result;
+}
+
+/// The closest of the points of the three sides; the way out for triangles without area.
+ClosestPoint closestOnSides(const Vec3& query, const std::array<Vec3, 3>& corner) {
+  ClosestPoint best;
+  best.squaredDistance = kInfinity;
+  for (std::size_t side = 0; side < 3; ++side) {
+    const std::size_t other = (side + 1) % 3;
+    const Vec3 along = corner[other] - corner[side];
+    const double length = squaredNorm(along);
+    const double t = length > 0.0 ? std::clamp(dot(query - corner[side], along) / length, 0.0, 1.0) : 0.0;
+    std::array<double, 3> weight{};
+    weight[side] = 1.0 - t;
+    weight[other] = t;
+    const ClosestPoint candidate = weighted(query, corner, weight);
+    if (candidate.squaredDistance < best.squaredDistance) best = candidate;
+  }
+  return best;
+}
+
+ClosestPoint closestOn(const Vec3& query, const std::array<Vec3, 3>& corner) {
+  const Vec3 ab = corner[1] - corner[0];
+  const Vec3 ac = corner[2] - corner[0];
+  const Vec3 ap = query - corner[0];
+  const double d1 = dot(ab, ap);
+  const double d2 = dot(ac, ap);
+  if (d1 <= 0.0 && d2 <= 0.0) return weighted(query, corner, {1.0, 0.0, 0.0});
+  const Vec3 bp = query - corner[1];
+  const double d3 = dot(ab, bp);
+  const double d4 = dot(ac, bp);
+  if (d3 >= 0.0 && d4 <= d3) return weighted(query, corner, {0.0, 1.0, 0.0});
+  const Vec3 cp = query - corner[2];
+  const double d5 = dot(ab, cp);
+  const double d6 = dot(ac, cp);
+  if (d6 >= 0.0 && d5 <= d6) return weighted(query, corner, {0.0, 0.0, 1.0});
+  const double va = d3 * d6 - d5 * d4;
+  const double vb = d5 * d2 - d1 * d6;
+  const double vc = d1 * d4 - d3 * d2;
+  const double sum = va + vb + vc;
+  if (va > 0.0 && vb > 0.0 && vc > 0.0) return weighted(query, corner, {va / sum, vb / sum, vc / sum});
+  return closestOnSides(query, corner);
+}
+
+struct Builder {
+  const std::vector<Vec3>& centroids;
+  std::vector<std::int32_t>& order;
+
+  /// Halves order[first, last) at the median of its longest axis; ids break ties, so the halves are unique.
+  std::int32_t halve(std::int32_t first, std::int32_t last) const {
+    Vec3 low = centroids[static_cast<std::size_t>(order[static_cast<std::size_t>(first)])];
+    Vec3 high = low;
+    for (std::int32_t i = first; i < last; ++i) {
+      const Vec3& c = centroids[static_cast<std::size_t>(order[static_cast<std::size_t>(i)])];
+      low = {std::min(low.x, c.x), std::min(low.y, c.y), std::min(low.z, c.z)};
+      high = {std::max(high.x, c.x), std::max(high.y, c.y), std::max(high.z, c.z)};
+    }
+    const Vec3 extent = high - low;
+    const int axis = extent.x >= extent.y && extent.x >= extent.z ? 0 : (extent.y >= extent.z ? 1 : 2);
+    const std::int32_t middle = first + (last - first) / 2;
+    std::nth_element(order.begin() + first, order.begin() + middle, order.begin() + last,
+                     [&](std::int32_t a, std::int32_t b) {
+                       const double ca = component(centroids[static_cast<std::size_t>(a)], axis);
+                       const double cb = component(centroids[static_cast<std::size_t>(b)], axis);
+                       return ca != cb ? ca < cb : a < b;
+                     });
+    return middle;
+  }
+};
+
+}  // namespace
+
+ClosestPoint closestPointOnTriangle(const Vec3& query, const Vec3& a, const Vec3& b, const Vec3& c) {
+  return closestOn(query, {a, b, c});
+}
+
+TriangleBvh::TriangleBvh(const std::vector<Vec3>& positions,
+                         const std::vector<std::array<std::int32_t, 3>>& triangles) {
+  if (triangles.empty()) return;
+  const auto corners = [&](std::int32_t t) {
+    const auto& ids = triangles[static_cast<std::size_t>(t)];
+    return std::array<Vec3, 3>{positions[static_cast<std::size_t>(ids[0])], positions[static_cast<std::size_t>(ids[1])],
+                               positions[static_cast<std::size_t>(ids[2])]};
+  };
+  order_.resize(triangles.size());
+  std::iota(order_.begin(), order_.end(), 0);
+  std::vector<Vec3> centroids(triangles.size());
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    const auto [a, b, c] = corners(static_cast<std::int32_t>(t));
+    centroids[t] = (a + b + c) / 3.0;
+  }
+  const Builder builder{centroids, order_};
+
+  // Children come after their parent, so that one backward pass fits the boxes.
+  nodes_.push_back({{}, {}, 0, static_cast<std::int32_t>(triangles.size()), 0});
+  for (std::size_t n = 0; n < nodes_.size(); ++n) {
+    const std::int32_t first = nodes_[n].first;
+    const std::int32_t last = first + nodes_[n].count;
+    if (nodes_[n].count <= kLeafSize) {
+      std::sort(order_.begin() + first, order_.begin() + last);
+      continue;
+    }
+    const std::int32_t middle = builder.halve(first, last);
+    nodes_[n].first = static_cast<std::int32_t>(nodes_.size());
+    nodes_[n].right = nodes_[n].first + 1;
+    nodes_[n].count = 0;
+    nodes_.push_back({{}, {}, first, middle - first, 0});
+    nodes_.push_back({{}, {}, middle, last - middle, 0});
+  }
+
+  triangles_.reserve(order_.size());
+  normals_.reserve(order_.size());
+  for (const std::int32_t t : order_) {
+    const auto [a, b, c] = corners(t);
+    triangles_.push_back({a, b, c});
+    normals_.push_back(normalized(cross(b - a, c - a)));
+  }
+  for (std::size_t n = nodes_.size(); n-- > 0;) {
+    Node& node = nodes_[n];
+    node.low = {kInfinity, kInfinity, kInfinity};
+    node.high = -node.low;
+    const auto include = [&node](const Vec3& low, const Vec3& high) {
+      node.low = {std::min(node.low.x, low.x), std::min(node.low.y, low.y), std::min(node.low.z, low.z)};
+      node.high = {std::max(node.high.x, high.x), std::max(node.high.y, high.y), std::max(node.high.z, high.z)};
+    };
+    if (node.count == 0) {
+      for (const std::int32_t child : {node.first, node.right}) {
+        include(nodes_[static_cast<std::size_t>(child)].low, nodes_[static_cast<std::size_t>(child)].high);
+      }
+    }
+    for (std::int32_t i = node.first; i < node.first + node.count; ++i) {
+      for (const Vec3& corner : triangles_[static_cast<std::size_t>(i)]) include(corner, corner);
+    }
+  }
+}
+
+template <class Accept>
+ClosestPoint TriangleBvh::search(const Vec3& query, Accept accept) const {
+  struct Entry {
+    std::int32_t node;
+    double squaredDistance;
+  };
+  ClosestPoint best;
+  best.squaredDistance = kInfinity;
+  std::array<Entry, 128> stack;  // Two entries a level, and halving 2^31 triangles takes fewer than 32 levels.
+  std::size_t top = 0;
+  stack[top++] = {0, 0.0};
+  while (top > 0) {
+    const Entry entry = stack[--top];
+    if (entry.squaredDistance > best.squaredDistance) continue;
+    const Node& node = nodes_[static_cast<std::size_t>(entry.node)];
+    if (node.count == 0) {
+      const Node& left = nodes_[static_cast<std::size_t>(node.first)];
+      const Node& right = nodes_[static_cast<std::size_t>(node.right)];
+      const Entry toLeft{node.first, squaredDistanceToBox(query, left.low, left.high)};
+      const Entry toRight{node.right, squaredDistanceToBox(query, right.low, right.high)};
+      const bool leftFirst = toLeft.squaredDistance <= toRight.squaredDistance;
+      stack[top++] = leftFirst ? toRight : toLeft;
+      stack[top++] = leftFirst ? toLeft : toRight;
+      continue;
+    }
+    for (std::int32_t i = node.first; i < node.first + node.count; ++i) {
+      const auto index = static_cast<std::size_t>(i);
+      if (!accept(index)) continue;
+      const ClosestPoint candidate = closestOn(query, triangles_[index]);
+      const bool closer = candidate.squaredDistance < best.squaredDistance;
+      const bool tie = candidate.squaredDistance == best.squaredDistance && order_[index] < best.triangle;
+      if (!closer && !tie) continue;
+      best = candidate;
+      best.triangle = order_[index];
+    }
+  }
+  return best;
+}
+
+ClosestPoint TriangleBvh::closest(const Vec3& query) const {
+  return search(query, [](std::size_t) { return true; });
+}
+
+ClosestPoint TriangleBvh::closest(const Vec3& query, const Vec3& normal, double minCosine) const {
+  const ClosestPoint best = search(query, [&](std::size_t index) { return dot(normals_[index], normal) >= minCosine; });
+  return best.triangle >= 0 ? best : closest(query);
+}
+
+}  // namespace qmcf
