@@ -8,9 +8,9 @@
 #include "qmcf/base/math.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <limits>
 
 namespace qmcf::math {
@@ -26,11 +26,20 @@ constexpr double kPiLow = 1.2246467991473531772e-16;
 constexpr double kLn2High = 6.93147180369123816490e-01;
 constexpr double kLn2Low = 1.90821492927058770002e-10;
 
+/// std::bit_cast, which libc++ lacks before version 14.
+template <class To, class From>
+To bitCast(const From& from) {
+  static_assert(sizeof(To) == sizeof(From));
+  To to;
+  std::memcpy(&to, &from, sizeof(To));
+  return to;
+}
+
 /// x without the lower half of its significand, so that its square is exact.
-double upperHalf(double x) { return std::bit_cast<double>(std::bit_cast<std::uint64_t>(x) & 0xFFFFFFFF00000000ULL); }
+double upperHalf(double x) { return bitCast<double>(bitCast<std::uint64_t>(x) & 0xFFFFFFFF00000000ULL); }
 
 /// 2^k for k in [-1022, 1023].
-double powerOfTwo(int k) { return std::bit_cast<double>(static_cast<std::uint64_t>(k + 1023) << 52U); }
+double powerOfTwo(int k) { return bitCast<double>(static_cast<std::uint64_t>(k + 1023) << 52U); }
 
 /// An angle in [-pi/4, pi/4] as a sum of two doubles, and the number of quarter turns that were taken away, modulo 4.
 struct ReducedAngle {
@@ -169,9 +178,9 @@ LogParts logParts(double x) {
     x *= 0x1p54;
     exponent = -54;
   }
-  const std::uint64_t shifted = std::bit_cast<std::uint64_t>(x) + (kOneBits - kSqrtHalfBits);
+  const std::uint64_t shifted = bitCast<std::uint64_t>(x) + (kOneBits - kSqrtHalfBits);
   exponent += static_cast<int>(shifted >> 52U) - 1023;
-  const double f = std::bit_cast<double>((shifted & 0x000FFFFFFFFFFFFFULL) + kSqrtHalfBits) - 1.0;
+  const double f = bitCast<double>((shifted & 0x000FFFFFFFFFFFFFULL) + kSqrtHalfBits) - 1.0;
   const double s = f / (2.0 + f);
   const double z = s * s;
   const double w = z * z;

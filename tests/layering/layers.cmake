@@ -1,0 +1,15 @@
+# The design: for each module the modules it may include. The build has a table of its own (core/CMakeLists.txt); the
+# two are compared.
+set(ALLOWED_base "")
+set(ALLOWED_mesh base)
+set(ALLOWED_spatial base mesh)
+set(ALLOWED_io base mesh)
+set(ALLOWED_topology base mesh spatial)
+set(ALLOWED_sizing base mesh spatial topology)
+set(ALLOWED_background base mesh spatial topology sizing)
+set(ALLOWED_field base mesh spatial topology)
+set(ALLOWED_quality base mesh spatial topology)
+set(ALLOWED_front base mesh spatial topology sizing background field quality)
+set(ALLOWED_cleanup base mesh spatial topology sizing background field quality)
+set(ALLOWED_pipeline base mesh spatial topology sizing background field quality front cleanup)
+set(ALLOWED_cli base mesh spatial io topology sizing background field quality front cleanup pipeline)

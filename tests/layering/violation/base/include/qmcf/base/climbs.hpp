@@ -1,0 +1,3 @@
+#pragma once
+
+#include "qmcf/pipeline/mesh_surface.hpp"
