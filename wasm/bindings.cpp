@@ -1,0 +1,412 @@
+// The core as JavaScript sees it: plain objects and typed arrays in, plain objects and typed arrays out. Every array
+// that is returned is a copy outside the WebAssembly heap. A call returns {error} or {value}.
+
+#include <emscripten.h>
+#include <emscripten/bind.h>
+#include <emscripten/val.h>
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "qmcf/base/math.hpp"
+#include "qmcf/base/progress.hpp"
+#include "qmcf/base/result.hpp"
+#include "qmcf/io/read.hpp"
+#include "qmcf/io/write.hpp"
+#include "qmcf/pipeline/mesh_surface.hpp"
+#include "qmcf/pipeline/report_json.hpp"
+#include "qmcf/quality/quality.hpp"
+
+// A direct import, since it is called from inner loops: the worker's onReport(stage, fraction) says whether to go on.
+EM_JS(int, qmcfReport, (int stage, double fraction), { return Module.onReport(stage, fraction) ? 1 : 0; });
+
+namespace qmcf {
+namespace {
+
+using emscripten::val;
+
+class HostProgress final : public Progress {
+ public:
+  [[nodiscard]] bool report(Stage stage, double fraction) override {
+    return qmcfReport(static_cast<int>(stage), fraction) != 0;
+  }
+};
+
+val text(std::string_view s) { return val(std::string(s)); }
+
+val failure(const Error& error) {
+  val elements = val::array();
+  for (const std::int64_t id : error.elements) {
+    elements.call<void>("push", static_cast<double>(id));
+  }
+  val details = val::object();
+  details.set("code", text(errorName(error.code)));
+  details.set("message", text(error.message));
+  details.set("elements", elements);
+  val out = val::object();
+  out.set("error", details);
+  return out;
+}
+
+val success(const val& value) {
+  val out = val::object();
+  out.set("value", value);
+  return out;
+}
+
+/// A JavaScript typed array with a copy of `count` numbers.
+template <class T>
+val copyOut(const T* data, std::size_t count) {
+  return val(emscripten::typed_memory_view(count, data)).call<val>("slice");
+}
+template <class T>
+val copyOut(const std::vector<T>& values) {
+  return copyOut(values.data(), values.size());
+}
+val copyOut(const std::vector<Vec3>& points) {
+  static_assert(sizeof(Vec3) == 3 * sizeof(double));
+  return copyOut(points.empty() ? nullptr : &points.front().x, 3 * points.size());
+}
+template <std::size_t N>
+val copyOut(const std::vector<std::array<std::int32_t, N>>& tuples) {
+  return copyOut(tuples.empty() ? nullptr : tuples.front().data(), N * tuples.size());
+}
+
+std::size_t lengthOf(const val& array) { return array["length"].as<std::size_t>(); }
+
+/// Fills `data`, room for as many numbers as the typed array has, with the array's numbers converted to T.
+template <class T>
+void copyIn(const val& array, T* data) {
+  val(emscripten::typed_memory_view(lengthOf(array), data)).call<void>("set", array);
+}
+
+bool isNumber(const val& v) { return v.typeOf().as<std::string>() == "number"; }
+
+Error wrongOption(std::string_view name, std::string_view expected) {
+  return {ErrorCode::invalidOption, "The option " + std::string(name) + " must be " + std::string(expected) + ".", {}};
+}
+
+std::optional<Error> assign(double& option, std::string_view name, const val& given) {
+  if (!isNumber(given)) {
+    return wrongOption(name, "a number");
+  }
+  option = given.as<double>();
+  return std::nullopt;
+}
+
+std::optional<Error> assign(std::optional<double>& option, std::string_view name, const val& given) {
+  return assign(option.emplace(), name, given);
+}
+
+std::optional<Error> assign(std::optional<std::int64_t>& option, std::string_view name, const val& given) {
+  constexpr double kLargestInteger = 9007199254740992.0;
+  const double number = isNumber(given) ? given.as<double>() : 0.5;
+  if (number != std::floor(number) || std::fabs(number) > kLargestInteger) {
+    return wrongOption(name, "a whole number");
+  }
+  option = static_cast<std::int64_t>(number);
+  return std::nullopt;
+}
+
+std::optional<Error> assign(bool& option, std::string_view name, const val& given) {
+  if (!given.isTrue() && !given.isFalse()) {
+    return wrongOption(name, "true or false");
+  }
+  option = given.isTrue();
+  return std::nullopt;
+}
+
+std::optional<Error> assign(Mode& option, std::string_view name, const val& given) {
+  const std::string word = given.isString() ? given.as<std::string>() : std::string();
+  if (word != "qmcf" && word != "qmorph") {
+    return wrongOption(name, "\"qmcf\" or \"qmorph\"");
+  }
+  option = word == "qmcf" ? Mode::qmcf : Mode::qmorph;
+  return std::nullopt;
+}
+
+/// Calls visit(name, field) for every option. The structured binding fails to compile when MeshOptions gains a field.
+template <class Visit>
+void forEachOption(MeshOptions& options, Visit visit) {
+  auto& [size, quads, featureAngle, mode, gradation, alignBoundary, alignSharp, alignNonManifold, alignCurvature] =
+      options;
+  visit("size", size);
+  visit("quads", quads);
+  visit("featureAngle", featureAngle);
+  visit("mode", mode);
+  visit("gradation", gradation);
+  visit("alignBoundary", alignBoundary);
+  visit("alignSharp", alignSharp);
+  visit("alignNonManifold", alignNonManifold);
+  visit("alignCurvature", alignCurvature);
+}
+
+/// The error for a key that is no option's name, if there is one.
+std::optional<Error> findUnknownOption(const val& given) {
+  const val keys = val::global("Object").call<val>("keys", given);
+  for (std::size_t i = 0; i < lengthOf(keys); ++i) {
+    const std::string key = keys[i].as<std::string>();
+    bool known = false;
+    MeshOptions options;
+    forEachOption(options, [&](std::string_view name, const auto& /*option*/) { known = known || name == key; });
+    if (!known) {
+      return Error{ErrorCode::invalidOption, "There is no option with the name " + key + ".", {}};
+    }
+  }
+  return std::nullopt;
+}
+
+/// Options that are absent or undefined keep their defaults.
+Result<MeshOptions> toOptions(const val& given) {
+  MeshOptions options;
+  std::optional<Error> error = findUnknownOption(given);
+  forEachOption(options, [&](const char* name, auto& option) {
+    const val value = given[name];
+    if (!error && !value.isUndefined()) {
+      error = assign(option, name, value);
+    }
+  });
+  if (!error) {
+    error = validateOptions(options);
+  }
+  if (error) {
+    return *std::move(error);
+  }
+  return options;
+}
+
+/// The mesh of {positions, triangles} or of {bytes}, a file's content.
+Result<TriangleMesh> toTriangleMesh(const val& input, Progress& progress) {
+  if (!input["bytes"].isUndefined()) {
+    std::vector<std::byte> bytes(lengthOf(input["bytes"]));
+    copyIn(input["bytes"], reinterpret_cast<std::uint8_t*>(bytes.data()));
+    Result<ReadModel> model = readModel(bytes, progress);
+    if (!model) {
+      return model.error();
+    }
+    return std::move(model).value().mesh;
+  }
+  const std::size_t coordinates = lengthOf(input["positions"]);
+  const std::size_t corners = lengthOf(input["triangles"]);
+  if (coordinates % 3 != 0 || corners % 3 != 0) {
+    return Error{ErrorCode::malformedInput, "The lengths of positions and triangles must be multiples of 3.", {}};
+  }
+  TriangleMesh mesh;
+  mesh.positions.resize(coordinates / 3);
+  mesh.triangles.resize(corners / 3);
+  if (mesh.positions.empty() || mesh.triangles.empty()) {
+    return Error{ErrorCode::emptyInput, "There are no triangles in the buffers.", {}};
+  }
+  copyIn(input["positions"], &mesh.positions.front().x);
+  copyIn(input["triangles"], mesh.triangles.front().data());
+  return mesh;
+}
+
+val faceNames(const Brep& brep) {
+  val names = val::array();
+  for (const BrepFace& face : brep.faces) {
+    names.call<void>("push", face.name);
+  }
+  return names;
+}
+
+val partValue(const InspectResult& result) {
+  const TriangleMesh& mesh = result.repaired.mesh;
+  val out = val::object();
+  out.set("positions", copyOut(mesh.positions));
+  out.set("triangles", copyOut(mesh.triangles));
+  out.set("triangleFace", copyOut(result.brep.triangleFace));
+  std::vector<std::int32_t> points;
+  std::vector<std::int32_t> offsets{0};
+  val kinds = val::array();
+  for (const BrepEdge& edge : result.brep.edges) {
+    points.insert(points.end(), edge.points.begin(), edge.points.end());
+    offsets.push_back(static_cast<std::int32_t>(points.size()));
+    kinds.call<void>("push", text(edgeKindName(edge.kind)));
+  }
+  out.set("edgePoints", copyOut(points));
+  out.set("edgeOffsets", copyOut(offsets));
+  out.set("edgeKinds", kinds);
+  out.set("faceNames", faceNames(result.brep));
+  out.set("report", toJson(result));
+  return out;
+}
+
+/// The crosses and singularities of all patches, one after the other.
+struct FlatField {
+  std::vector<Vec3> points;
+  std::vector<Vec3> directions;
+  std::vector<Vec3> normals;
+  std::vector<double> sizes;
+  std::vector<std::uint8_t> constrained;
+  std::vector<std::int32_t> faces;
+  std::vector<Vec3> singularPoints;
+  std::vector<Vec3> singularNormals;
+  std::vector<std::int32_t> singularIndices;
+  std::vector<std::int32_t> singularFaces;
+};
+
+void append(FlatField& flat, const Patch& patch, const CrossField& field) {
+  for (const VertexId v : patch.surface.vertices()) {
+    const double angle = 0.25 * math::arg(field.cross[v]);
+    const TangentFrame& frame = field.frame[v];
+    flat.points.push_back(patch.surface.position(v));
+    flat.directions.push_back(frame.x * math::cos(angle) + frame.y * math::sin(angle));
+    flat.normals.push_back(frame.normal);
+    flat.sizes.push_back(patch.size[v]);
+    flat.constrained.push_back(field.constrained[v]);
+    flat.faces.push_back(patch.face);
+  }
+  for (const Singularity& singularity : field.singularities) {
+    flat.singularPoints.push_back(positionOf(patch.surface, singularity.point));
+    flat.singularNormals.push_back(normalized(patch.surface.areaVector(singularity.point.triangle)));
+    flat.singularIndices.push_back(singularity.index);
+    flat.singularFaces.push_back(patch.face);
+  }
+}
+
+val fieldValue(const FieldResult& result) {
+  FlatField flat;
+  for (std::size_t i = 0; i < result.patches.size(); ++i) {
+    append(flat, result.patches[i], result.fields[i]);
+  }
+  val crosses = val::object();
+  crosses.set("positions", copyOut(flat.points));
+  crosses.set("directions", copyOut(flat.directions));
+  crosses.set("normals", copyOut(flat.normals));
+  crosses.set("sizes", copyOut(flat.sizes));
+  crosses.set("constrained", copyOut(flat.constrained));
+  crosses.set("faces", copyOut(flat.faces));
+  val singularities = val::object();
+  singularities.set("positions", copyOut(flat.singularPoints));
+  singularities.set("normals", copyOut(flat.singularNormals));
+  singularities.set("indices", copyOut(flat.singularIndices));
+  singularities.set("faces", copyOut(flat.singularFaces));
+  val out = val::object();
+  out.set("size", result.size);
+  out.set("crosses", crosses);
+  out.set("singularities", singularities);
+  return out;
+}
+
+/// Per element: the scaled Jacobian that the report's distribution is made of.
+std::vector<double> scaledJacobians(const QuadMesh& mesh) {
+  std::vector<double> values;
+  values.reserve(mesh.elements.size());
+  const auto at = [&](std::int32_t v) -> const Vec3& { return mesh.positions[static_cast<std::size_t>(v)]; };
+  for (const Element& e : mesh.elements) {
+    values.push_back(cornerCount(e) == 3 ? triangleScaledJacobian(at(e[0]), at(e[1]), at(e[2]))
+                                         : quadMetrics(at(e[0]), at(e[1]), at(e[2]), at(e[3])).scaledJacobian);
+  }
+  return values;
+}
+
+val meshValue(const MeshResult& result) {
+  static_assert(sizeof(FeatureSegment) == 3 * sizeof(std::int32_t));
+  const std::vector<FeatureSegment>& segments = result.mesh.featureSegments;
+  val out = val::object();
+  out.set("size", result.size);
+  out.set("positions", copyOut(result.mesh.positions));
+  out.set("elements", copyOut(result.mesh.elements));
+  out.set("elementFace", copyOut(result.mesh.elementFace));
+  out.set("featureSegments", copyOut(segments.empty() ? nullptr : &segments.front().a, 3 * segments.size()));
+  out.set("elementScaledJacobian", copyOut(scaledJacobians(result.mesh)));
+  out.set("faceNames", faceNames(result.input.brep));
+  out.set("report", toJson(result));
+  return out;
+}
+
+/// Reads input and options and hands them to `stage`, a function of (TriangleMesh, MeshOptions, Progress).
+template <class Stage, class ToValue>
+val run(const val& input, const val& options, Stage stage, ToValue toValue) {
+  HostProgress progress;
+  const Result<MeshOptions> parsed = toOptions(options);
+  if (!parsed) {
+    return failure(parsed.error());
+  }
+  const Result<TriangleMesh> mesh = toTriangleMesh(input, progress);
+  if (!mesh) {
+    return failure(mesh.error());
+  }
+  const auto result = stage(mesh.value(), parsed.value(), progress);
+  return result ? success(toValue(result.value())) : failure(result.error());
+}
+
+val inspectModel(const val& input, const val& options) {
+  const auto inspect = [](const TriangleMesh& mesh, const MeshOptions& o, Progress& progress) {
+    return inspectSurface(mesh, o.featureAngle, progress);
+  };
+  return run(input, options, inspect, partValue);
+}
+
+val fieldModel(const val& input, const val& options) { return run(input, options, computeField, fieldValue); }
+
+val meshModel(const val& input, const val& options) { return run(input, options, meshSurface, meshValue); }
+
+/// The bytes of a file of the given extension from the arrays of an earlier result.
+val writeModel(const val& input, const std::string& extension) {
+  const std::optional<OutputFormat> format = outputFormatOf("mesh." + extension);
+  if (!format) {
+    return failure({ErrorCode::unsupportedOutput, "Files of the type \"" + extension + "\" can't be written.", {}});
+  }
+  QuadMesh mesh;
+  mesh.positions.resize(lengthOf(input["positions"]) / 3);
+  mesh.elements.resize(lengthOf(input["elements"]) / 4);
+  mesh.elementFace.resize(lengthOf(input["elementFace"]));
+  mesh.featureSegments.resize(lengthOf(input["featureSegments"]) / 3);
+  if (mesh.positions.empty() || mesh.elements.empty()) {
+    return failure({ErrorCode::emptyInput, "There are no elements to write.", {}});
+  }
+  copyIn(input["positions"], &mesh.positions.front().x);
+  copyIn(input["elements"], mesh.elements.front().data());
+  copyIn(input["elementFace"], mesh.elementFace.data());
+  if (!mesh.featureSegments.empty()) {
+    copyIn(input["featureSegments"], &mesh.featureSegments.front().a);
+  }
+  WriteOptions options;
+  const val names = input["faceNames"];
+  for (std::size_t i = 0; i < lengthOf(names); ++i) {
+    options.faceNames.push_back(names[i].as<std::string>());
+  }
+  const std::string content = writeMesh(mesh, *format, options);
+  return success(copyOut(reinterpret_cast<const std::uint8_t*>(content.data()), content.size()));
+}
+
+/// The names that both languages must agree on: {errors, stages, options}.
+val tables() {
+  val errors = val::array();
+#define QMCF_ERROR(code, exitStatus, meaning) errors.call<void>("push", text(errorName(ErrorCode::code)));
+#include "qmcf/base/errors.def"
+#undef QMCF_ERROR
+  val stages = val::array();
+  for (int i = 0; i <= static_cast<int>(Stage::write); ++i) {
+    stages.call<void>("push", text(stageName(static_cast<Stage>(i))));
+  }
+  val names = val::array();
+  MeshOptions options;
+  forEachOption(options, [&](const char* name, auto& /*option*/) { names.call<void>("push", text(name)); });
+  val out = val::object();
+  out.set("errors", errors);
+  out.set("stages", stages);
+  out.set("options", names);
+  return out;
+}
+
+EMSCRIPTEN_BINDINGS(qmcf) {
+  emscripten::function("inspect", &inspectModel);
+  emscripten::function("field", &fieldModel);
+  emscripten::function("mesh", &meshModel);
+  emscripten::function("write", &writeModel);
+  emscripten::function("tables", &tables);
+}
+
+}  // namespace
+}  // namespace qmcf

@@ -1,0 +1,266 @@
+import type { Stage } from './tables.js';
+
+/** A triangle mesh in plain buffers. */
+export interface TriangleBuffers {
+  /** x, y, z of each vertex, in units of the model. */
+  readonly positions: Float64Array | Float32Array;
+  /** Three vertices of each triangle, counter-clockwise seen from outside. */
+  readonly triangles: Uint32Array;
+}
+
+/** The content of an OBJ, STL or PLY file (the format is found from the content), or a triangle mesh in buffers. */
+export type ModelInput = ArrayBuffer | Uint8Array | TriangleBuffers;
+
+/** Which advancing front makes the quads: by cross field and size field, or the original Q-Morph. */
+export type Mode = 'qmcf' | 'qmorph';
+
+/** All options of a run; the names are those of the C++ struct. The core checks the values. */
+export interface MeshOptions {
+  /** Element edge length in units of the model, greater than 0. Excludes {@link MeshOptions.quads}. */
+  size?: number | undefined;
+  /** Number of elements to aim at, 1 to 10,000,000. Default 3000 if size is unset. */
+  quads?: number | undefined;
+  /** Dihedral angle in degrees, between 0 and 180, from which an edge is sharp. Default 30. */
+  featureAngle?: number | undefined;
+  /** Default `qmcf`. */
+  mode?: Mode | undefined;
+  /** Largest slope of the size field, above 0 and at most 1. Default 0.2. */
+  gradation?: number | undefined;
+  /** Field constraint: boundary edges. Default true. */
+  alignBoundary?: boolean | undefined;
+  /** Field constraint: sharp edges. Default true. */
+  alignSharp?: boolean | undefined;
+  /** Field constraint: non-manifold edges. Default true. */
+  alignNonManifold?: boolean | undefined;
+  /** Field constraint: principal curvature. Default true. */
+  alignCurvature?: boolean | undefined;
+}
+
+/** The names of all options, for interfaces that are made from them. */
+export const meshOptionNames = [
+  'size',
+  'quads',
+  'featureAngle',
+  'mode',
+  'gradation',
+  'alignBoundary',
+  'alignSharp',
+  'alignNonManifold',
+  'alignCurvature',
+] as const satisfies readonly (keyof MeshOptions)[];
+
+/** Where a run is. */
+export interface ProgressReport {
+  readonly stage: Stage;
+  /** Share of this stage that is done, 0 to 1. */
+  readonly fraction: number;
+}
+
+/** How a run is watched and stopped. */
+export interface RunControl {
+  /** Aborting it rejects the promise with code `cancelled`. */
+  signal?: AbortSignal | undefined;
+  /** Called some 20 times a second and at every new stage. */
+  onProgress?: ((progress: ProgressReport) => void) | undefined;
+  /** Give the input's buffers away instead of copying them: they are detached. Default false. */
+  transferInput?: boolean | undefined;
+}
+
+/** Why an edge of the recovered B-rep is an edge. */
+export type EdgeKind = 'nonManifold' | 'boundary' | 'sharp' | 'label';
+
+/** One kind of defect of the input, what was done about it and where. */
+export interface RepairItem {
+  readonly defect: string;
+  /** What was done, for a person. */
+  readonly action: string;
+  readonly count: number;
+  /** Ids in the input, at most 100. */
+  readonly elements: readonly number[];
+}
+
+/** The repaired input and the faces, edges and vertices that were recovered from it. */
+export interface InspectResult {
+  /** x, y, z of each vertex after repair. */
+  readonly positions: Float64Array;
+  /** Three vertices of each triangle. */
+  readonly triangles: Int32Array;
+  /** Per triangle: its face. */
+  readonly triangleFace: Int32Array;
+  /** Vertices along all edges, one edge after the other. */
+  readonly edgePoints: Int32Array;
+  /** Edge `e` is `edgePoints[edgeOffsets[e]]` up to, not including, `edgePoints[edgeOffsets[e + 1]]`. */
+  readonly edgeOffsets: Int32Array;
+  /** Per edge. */
+  readonly edgeKinds: readonly EdgeKind[];
+  /** Per face: from the file, or "face N". */
+  readonly faceNames: readonly string[];
+  readonly report: InspectReport;
+}
+
+/** What was found in and done to the input. */
+export interface InspectReport {
+  readonly repair: readonly RepairItem[];
+}
+
+/** One cross per point of the faces' background triangulations: four directions at right angles. */
+export interface Crosses {
+  /** x, y, z of each point. */
+  readonly positions: Float64Array;
+  /** x, y, z of one of the four unit directions; the others follow by quarter turns about the normal. */
+  readonly directions: Float64Array;
+  /** x, y, z of the unit normal. */
+  readonly normals: Float64Array;
+  /** Element size wanted there. */
+  readonly sizes: Float64Array;
+  /** 0 free, 1 pinned to an edge, 2 pinned to curvature, 3 pinned by the user. */
+  readonly constrained: Uint8Array;
+  /** The face that the cross belongs to. */
+  readonly faces: Int32Array;
+}
+
+/** Points where the field has no direction. */
+export interface Singularities {
+  readonly positions: Float64Array;
+  readonly normals: Float64Array;
+  /** Quarter turns: +1 becomes a vertex with three quads, -1 one with five. */
+  readonly indices: Int32Array;
+  readonly faces: Int32Array;
+}
+
+/** The cross field of every face. */
+export interface FieldResult {
+  /** The element size that the field was made for. */
+  readonly size: number;
+  readonly crosses: Crosses;
+  readonly singularities: Singularities;
+}
+
+/** Mean, worst and quantiles of one metric over the elements; null where there is no finite value. */
+export interface Distribution {
+  readonly mean: number | null;
+  readonly worst: number | null;
+  /** The worst 1 % of the elements are worse than this. */
+  readonly p1: number | null;
+  readonly median: number | null;
+  /** Elements left out because the metric is not finite. */
+  readonly infinite: number;
+}
+
+/** What a check came to: `warn` is worth knowing, `fail` makes the mesh invalid, `skip` can't be decided. */
+export type CheckStatus = 'pass' | 'warn' | 'fail' | 'skip';
+
+/** One check of the validator. */
+export interface ValidityCheck {
+  readonly name: string;
+  readonly status: CheckStatus;
+  /** Defects found; 0 unless the status is `warn` or `fail`. */
+  readonly count: number;
+  readonly elements: readonly number[];
+  /** For a person; empty when passed. */
+  readonly sentence: string;
+}
+
+/** What a mesh is and how good it is. Lengths are in units of the model, angles in degrees. */
+export interface QualityReport {
+  readonly vertices: number;
+  readonly quads: number;
+  readonly triangles: number;
+  /** quads / elements. */
+  readonly quadShare: number;
+  /** Interior vertices with exactly four elements, all quads / interior vertices. */
+  readonly regularShare: number;
+  readonly interiorVertices: number;
+  readonly irregularVertices: number;
+  /** Interior vertices with only two elements. */
+  readonly doublets: number;
+  readonly boundaryEdges: number;
+  readonly components: number;
+  readonly eulerCharacteristic: number;
+  readonly area: number;
+  /** This and the following ones are over the quads. */
+  readonly scaledJacobian: Distribution;
+  readonly jacobianRatio: Distribution;
+  readonly jacobianRatioGauss: Distribution;
+  readonly aspectRatio: Distribution;
+  readonly edgeRatio: Distribution;
+  readonly orthogonalQuality: Distribution;
+  readonly minAngle: Distribution;
+  readonly maxAngle: Distribution;
+  readonly skewness: Distribution;
+  readonly warpage: Distribution;
+  /** Over the triangles. */
+  readonly triangleScaledJacobian: Distribution;
+  /** The target length that {@link QualityReport.sizeError} and the recalls were measured with. */
+  readonly size: number;
+  /** Mean |log2(edge length / size)|. */
+  readonly sizeError: number;
+  /** Of element centres from the input, weighted by area. */
+  readonly meanDistance?: number | null;
+  /** Of vertices and element centres from the input. */
+  readonly largestDistance?: number | null;
+  /** Of the input's vertices and triangle centres from the mesh. */
+  readonly largestGap?: number | null;
+  /** Share of the input's sharp edge length that the mesh keeps. */
+  readonly sharpRecall?: number | null;
+  /** The same of its boundary; absent when it has none. */
+  readonly boundaryRecall?: number | null;
+  /** The same of its non-manifold edges. */
+  readonly nonManifoldRecall?: number | null;
+  /** Share of the input's feature corners that have a vertex. */
+  readonly cornerRecall?: number | null;
+  readonly checks: readonly ValidityCheck[];
+  /** No check failed. */
+  readonly valid: boolean;
+}
+
+/** How one face was meshed. */
+export interface FaceReport {
+  readonly face: number;
+  /** The step of the ladder that worked. */
+  readonly method: 'qmcf' | 'qmorph' | 'recombined' | 'triangles';
+  /** Why the earlier steps did not; empty for the first. */
+  readonly reason: string;
+  readonly quads: number;
+  readonly triangles: number;
+}
+
+/** Everything a person should know about a mesh. */
+export interface MeshReport {
+  readonly size: number;
+  readonly quality: QualityReport;
+  readonly faces: readonly FaceReport[];
+  readonly repair: readonly RepairItem[];
+  readonly fieldSingularities: number;
+}
+
+/** The arrays of a quad-dominant mesh. */
+export interface MeshArrays {
+  /** x, y, z of each vertex. */
+  readonly positions: Float64Array;
+  /** Four vertices of each element, counter-clockwise; the fourth of a triangle is -1. */
+  readonly elements: Int32Array;
+  /** Per element: its face. */
+  readonly elementFace: Int32Array;
+  /** Edges of the mesh on edges of the part, three numbers each: two vertices and the edge of the part. */
+  readonly featureSegments: Int32Array;
+  /** Per face: from the file, or "face N". */
+  readonly faceNames: readonly string[];
+}
+
+/** Formats that a mesh can be written in; the names are the file name extensions. */
+export const outputFormats = ['obj', 'vtu', 'ply', 'stl', 'msh', 'inp', 'bdf'] as const;
+
+/** A format that a mesh can be written in. */
+export type OutputFormat = (typeof outputFormats)[number];
+
+/** A mesh and what there is to know about it. */
+export interface MeshResult extends MeshArrays {
+  /** The element size that was asked for, or that followed from the count. */
+  readonly size: number;
+  /** Per element: 1 is a square or an equilateral triangle, 0 or less is unusable. */
+  readonly elementScaledJacobian: Float64Array;
+  readonly report: MeshReport;
+  /** The content of a file of this mesh. Errors: `unsupportedOutput`, `cancelled` after the mesher was disposed of. */
+  file(format: OutputFormat): Promise<Uint8Array<ArrayBuffer>>;
+}
