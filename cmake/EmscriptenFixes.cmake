@@ -12,6 +12,3 @@ endif()
 
 # Nothing in the library throws; leaving exceptions out saves a fifth of the size.
 add_compile_options(-fno-exceptions)
-
-# Nothing throws, and the tables for it would cost a fifth of the download.
-add_compile_options(-fno-exceptions)

@@ -1,7 +1,7 @@
-// Builds the package into dist/: the core with Emscripten, then TypeScript. Needs emcmake and cmake on PATH.
+// Builds the package into dist/: the core with Emscripten, then TypeScript. Needs cmake and emcc on the PATH.
 import { spawnSync } from 'node:child_process';
 import { copyFileSync, mkdirSync, rmSync } from 'node:fs';
-import { delimiter, join } from 'node:path';
+import { join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 
 const packageDir = fileURLToPath(new URL('..', import.meta.url));
@@ -9,23 +9,15 @@ const root = join(packageDir, '..');
 const binaries = join(root, 'build/wasm/bin');
 const dist = join(packageDir, 'dist');
 
-// Debian's Emscripten keeps its JavaScript tools there, where a Node from elsewhere does not look.
-const nodePath = [process.env.NODE_PATH, '/usr/share/nodejs'].filter(Boolean).join(delimiter);
-
 function run(command, ...args) {
-  const { status, error } = spawnSync(command, args, {
-    cwd: root,
-    stdio: 'inherit',
-    env: { ...process.env, NODE_PATH: nodePath },
-  });
+  const { status, error } = spawnSync(command, args, { cwd: root, stdio: 'inherit' });
   if (error || status !== 0) {
     console.error(`${command} ${args.join(' ')}: ${error?.message ?? `exit status ${status}`}`);
     process.exit(1);
   }
 }
 
-// Emscripten 3.1.6 sets an emulator with a flag that Node 20 refuses; nothing is run at build time.
-run('emcmake', 'cmake', '--preset', 'wasm', '-DCMAKE_CROSSCOMPILING_EMULATOR=');
+run('cmake', '--preset', 'wasm');
 run('cmake', '--build', '--preset', 'wasm', '--target', 'qmcf_wasm', '--parallel');
 run(process.execPath, join(packageDir, 'scripts/make_tables.mjs'));
 rmSync(dist, { recursive: true, force: true });
