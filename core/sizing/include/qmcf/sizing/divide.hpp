@@ -13,16 +13,17 @@ namespace qmcf {
 
 /// The nodes that the faces share along one edge of the B-rep.
 struct EdgeDivision {
-  std::vector<std::int32_t> nodes;  ///< Node ids from start to end; n divisions have n + 1 entries (closed: first == last).
-  std::vector<double> arcLength;    ///< Per entry: arc length from the start of the edge, ascending.
+  std::vector<std::int32_t>
+      nodes;  ///< Node ids from start to end; n divisions have n + 1 entries (closed: first == last).
+  std::vector<double> arcLength;  ///< Per entry: arc length from the start of the edge, ascending.
 };
 
 /// Every edge of the B-rep cut into whole elements.
 struct DividedEdges {
-  std::vector<Vec3> nodes;            ///< Positions, on the edges; B-rep vertices come first, in their order.
-  std::vector<double> nodeSize;       ///< Per node: target length.
-  std::vector<EdgeDivision> edges;    ///< Per edge of the B-rep.
-  std::int64_t oddFaces = 0;          ///< Faces whose number of boundary edges could not be made even.
+  std::vector<Vec3> nodes;          ///< Positions, on the edges; B-rep vertices come first, in their order.
+  std::vector<double> nodeSize;     ///< Per node: target length.
+  std::vector<EdgeDivision> edges;  ///< Per edge of the B-rep.
+  std::int64_t oddFaces = 0;        ///< Faces whose number of boundary edges could not be made even.
 };
 
 /// Divides by the size field: round(integral of ds / h), at least 1 (at least 3 on a closed edge), with nodes at equal

@@ -13,19 +13,33 @@ namespace qmcf {
 
 /// How large the elements shall be. Lengths are in units of the model.
 struct SizingOptions {
-  std::optional<double> size;         ///< Edge length everywhere, > 0. Excludes `quads`.
-  std::optional<std::int64_t> quads;  ///< Number of elements to aim at, 1 to 10,000,000; default 3000 when `size` is unset.
-  double gradation = 0.2;             ///< Largest |grad h|, in (0, 1].
+  std::optional<double> size;  ///< Edge length everywhere, > 0. Excludes `quads`.
+  std::optional<std::int64_t>
+      quads;               ///< Number of elements to aim at, 1 to 10,000,000; default 3000 when `size` is unset.
+  double gradation = 0.2;  ///< Largest |grad h|, in (0, 1].
   std::int32_t divisionsPerTurn = 8;  ///< Least number of edges in a full turn of a feature edge, >= 3.
 };
 
-/// Target edge length over the repaired mesh, linear in each triangle.
-struct SizeField {
-  double base = 0.0;          ///< The length asked for, or derived from the count.
-  std::vector<double> value;  ///< Per vertex of the mesh, > 0.
+/// Target length along one edge of the B-rep, linear between samples.
+struct EdgeSizes {
+  std::vector<double> arcLength;  ///< From the start of the edge, ascending, from 0 to its length.
+  std::vector<double> value;      ///< Per entry of arcLength, > 0.
 };
 
-/// Errors: invalidOption, cancelled.
+/// Target edge length over the repaired mesh. Inside a face it is the lower envelope of the cones that rise with slope
+/// `gradation` from the values on the face's edges and at its vertices, and nowhere above base.
+struct SizeField {
+  double base = 0.0;             ///< The length asked for, or derived from the count.
+  double gradation = 0.2;        ///< Largest |grad h|.
+  std::vector<double> value;     ///< Per vertex of the mesh, > 0.
+  std::vector<EdgeSizes> edges;  ///< Per edge of the B-rep; finer than the edge's points where these are sparse.
+  std::vector<std::int32_t> minimumDivisions;  ///< Per edge of the B-rep, >= 1: what its turns ask for.
+};
+
+/// The sizes: `size`, or the root of area / quads; smaller where a feature edge turns (at least divisionsPerTurn
+/// divisions in a full turn, also in a small closed edge), where two edges of a face run close to each other, and on
+/// short edges; not below a tenth of base, except by the divisions of a small closed edge; then graded.
+/// Complexity O(n log n). Errors: invalidOption, cancelled.
 Result<SizeField> computeSizeField(const TriangleMesh& mesh, const Brep& brep, const SizingOptions& options,
                                    Progress& progress);
 

@@ -1,0 +1,295 @@
+#include "qmcf/sizing/divide.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <iterator>
+#include <utility>
+
+#include "edge_groups.hpp"
+#include "parity.hpp"
+#include "qmcf/base/math.hpp"
+#include "qmcf/sizing/edge_curve.hpp"
+
+namespace qmcf {
+namespace {
+
+/// One edge on its way to whole divisions.
+struct Plan {
+  EdgeCurve curve;
+  EdgeSizes sizes;
+  std::vector<double> integral;  ///< Per sample: the integral of ds / h from the start.
+  std::vector<double> stops;     ///< Integral at the start, at each corner that gets a node, and at the end.
+  std::int32_t least = 1;
+  std::int32_t count = 1;
+
+  [[nodiscard]] double wanted() const { return integral.back(); }
+};
+
+EdgeSizes sizesOf(const SizeField& size, const BrepEdge& edge, const EdgeCurve& curve, std::size_t e) {
+  if (e < size.edges.size()) return size.edges[e];
+  EdgeSizes sizes{curve.arcLength, {}};
+  for (const std::int32_t point : edge.points) sizes.value.push_back(size.value[static_cast<std::size_t>(point)]);
+  return sizes;
+}
+
+/// The corners of a coarse polygon get nodes where there is room for an element on both sides.
+std::vector<double> stopsOf(const Plan& plan) {
+  constexpr double kCorner = math::kPi / 12.0;
+  constexpr double kRoom = 0.75;
+  const std::vector<Vec3>& points = plan.curve.points;
+  std::vector<double> stops{0.0};
+  for (std::size_t i = 1; i + 1 < points.size(); ++i) {
+    const double at = interpolate(plan.sizes.arcLength, plan.integral, plan.curve.arcLength[i]);
+    if (at - stops.back() < kRoom || plan.wanted() - at < kRoom) continue;
+    const Vec3 before = points[i] - points[i - 1];
+    const Vec3 after = points[i + 1] - points[i];
+    if (math::atan2(norm(cross(before, after)), dot(before, after)) >= kCorner) stops.push_back(at);
+  }
+  stops.push_back(plan.wanted());
+  return stops;
+}
+
+Plan planEdge(const TriangleMesh& mesh, const BrepEdge& edge, const SizeField& size, std::size_t e,
+              std::int32_t minimum) {
+  Plan plan;
+  plan.curve = edgeCurve(mesh, edge);
+  plan.sizes = sizesOf(size, edge, plan.curve, e);
+  plan.integral.push_back(0.0);
+  for (std::size_t i = 0; i + 1 < plan.sizes.value.size(); ++i) {
+    const double length = plan.sizes.arcLength[i + 1] - plan.sizes.arcLength[i];
+    const double density = 0.5 * (1.0 / plan.sizes.value[i] + 1.0 / plan.sizes.value[i + 1]);
+    plan.integral.push_back(plan.integral.back() + length * density);
+  }
+  plan.stops = stopsOf(plan);
+  plan.least = std::max({minimum, plan.curve.closed ? 3 : 1, static_cast<std::int32_t>(plan.stops.size()) - 1});
+  if (e < size.minimumDivisions.size()) plan.least = std::max(plan.least, size.minimumDivisions[e]);
+  std::int32_t rounded = 0;
+  for (std::size_t k = 0; k + 1 < plan.stops.size(); ++k) {
+    rounded += std::max(1, static_cast<std::int32_t>(std::floor(plan.stops[k + 1] - plan.stops[k] + 0.5)));
+  }
+  plan.count = std::max(plan.least, rounded);
+  return plan;
+}
+
+/// Gives all edges of a group one number of divisions.
+void settleGroups(std::vector<Plan>& plans, const std::vector<std::vector<std::int32_t>>& groups) {
+  for (const auto& group : groups) {
+    double sum = 0.0;
+    std::int32_t least = 1;
+    for (const std::int32_t e : group) {
+      sum += plans[static_cast<std::size_t>(e)].wanted();
+      least = std::max(least, plans[static_cast<std::size_t>(e)].least);
+    }
+    const double mean = sum / static_cast<double>(group.size());
+    const auto count = std::max(least, static_cast<std::int32_t>(std::floor(mean + 0.5)));
+    for (const std::int32_t e : group) plans[static_cast<std::size_t>(e)].count = count;
+  }
+}
+
+double misfit(double count, double wanted) {
+  constexpr double kTiny = 1e-3;
+  const double w = std::max(wanted, kTiny);
+  return std::max(count / w, w / count) - 1.0;
+}
+
+/// A change of one division on all edges of `edges`, in the better direction.
+struct Step {
+  std::vector<std::int32_t> edges;
+  std::int32_t by = 1;
+  double cost = 0.0;
+};
+
+Step stepOf(const std::vector<Plan>& plans, std::vector<std::int32_t> edges) {
+  double up = 0.0;
+  double down = 0.0;
+  bool canShrink = true;
+  for (const std::int32_t e : edges) {
+    const Plan& plan = plans[static_cast<std::size_t>(e)];
+    up += misfit(plan.count + 1.0, plan.wanted());
+    down += misfit(std::max(plan.count - 1.0, 0.5), plan.wanted());
+    canShrink = canShrink && plan.count > plan.least;
+  }
+  return canShrink && down < up ? Step{std::move(edges), -1, down} : Step{std::move(edges), 1, up};
+}
+
+/// Per edge: the faces that use it an odd number of times.
+std::vector<std::vector<std::int32_t>> oddUses(const Brep& brep) {
+  std::vector<std::vector<std::int32_t>> uses(brep.edges.size());
+  for (std::size_t f = 0; f < brep.faces.size(); ++f) {
+    const auto face = static_cast<std::int32_t>(f);
+    for (const BrepLoop& loop : brep.faces[f].loops) {
+      for (const Coedge& coedge : loop.coedges) {
+        auto& of = uses[static_cast<std::size_t>(coedge.edge)];
+        if (!of.empty() && of.back() == face) {
+          of.pop_back();
+        } else {
+          of.push_back(face);
+        }
+      }
+    }
+  }
+  return uses;
+}
+
+/// Makes the number of divisions around each face even wherever that is possible; returns the number of odd faces.
+std::int64_t makeEven(std::vector<Plan>& plans, const Brep& brep,
+                      const std::vector<std::vector<std::int32_t>>& groups) {
+  // Worse than the change itself: opposite sides of a regular face that differ.
+  constexpr double kBrokenGroup = 0.5;
+  const auto uses = oddUses(brep);
+  std::vector<bool> odd(brep.faces.size(), false);
+  for (std::size_t e = 0; e < plans.size(); ++e) {
+    if (plans[e].count % 2 == 0) continue;
+    for (const std::int32_t f : uses[e]) odd[static_cast<std::size_t>(f)] = !odd[static_cast<std::size_t>(f)];
+  }
+  std::vector<bool> grouped(plans.size(), false);
+  std::vector<Step> steps;
+  for (const auto& group : groups) {
+    for (const std::int32_t e : group) grouped[static_cast<std::size_t>(e)] = true;
+    steps.push_back(stepOf(plans, group));
+  }
+  for (std::size_t e = 0; e < plans.size(); ++e) {
+    steps.push_back(stepOf(plans, {static_cast<std::int32_t>(e)}));
+    if (grouped[e]) steps.back().cost += kBrokenGroup;
+  }
+  std::vector<ParityChange> changes;
+  for (const Step& step : steps) {
+    ParityChange change{{}, step.cost};
+    for (const std::int32_t e : step.edges) {
+      std::vector<std::int32_t> sum;
+      const auto& of = uses[static_cast<std::size_t>(e)];
+      std::set_symmetric_difference(change.faces.begin(), change.faces.end(), of.begin(), of.end(),
+                                    std::back_inserter(sum));
+      change.faces = std::move(sum);
+    }
+    changes.push_back(std::move(change));
+  }
+  const ParitySolution solution = solveParity(std::move(odd), changes);
+  std::vector<std::int32_t> by(plans.size(), 0);
+  for (std::size_t s = 0; s < steps.size(); ++s) {
+    if (!solution.apply[s]) continue;
+    // An edge that changes with its group and on its own stays as it was.
+    for (const std::int32_t e : steps[s].edges) {
+      std::int32_t& of = by[static_cast<std::size_t>(e)];
+      of = of == 0 ? steps[s].by : 0;
+    }
+  }
+  for (std::size_t e = 0; e < plans.size(); ++e) plans[e].count += by[e];
+  return solution.oddFaces;
+}
+
+/// A face inside a loop of two edges has no room for a triangle: loops get three at least, by steps that keep parity.
+void fillSmallLoops(std::vector<Plan>& plans, const Brep& brep) {
+  for (const BrepFace& face : brep.faces) {
+    for (const BrepLoop& loop : face.loops) {
+      std::int32_t sum = 0;
+      std::size_t longest = 0;
+      for (std::size_t c = 0; c < loop.coedges.size(); ++c) {
+        const auto plan = [&](std::size_t i) -> const Plan& {
+          return plans[static_cast<std::size_t>(loop.coedges[i].edge)];
+        };
+        sum += plan(c).count;
+        if (plan(c).wanted() > plan(longest).wanted()) longest = c;
+      }
+      if (sum < 3 && !loop.coedges.empty()) plans[static_cast<std::size_t>(loop.coedges[longest].edge)].count += 2;
+    }
+  }
+}
+
+/// Shares plan.count out among the stretches between stops, by their integrals.
+std::vector<std::int32_t> shares(const Plan& plan) {
+  const std::size_t stretches = plan.stops.size() - 1;
+  const double scale = plan.wanted() > 0.0 ? static_cast<double>(plan.count) / plan.wanted() : 0.0;
+  std::vector<std::int32_t> share(stretches, 1);
+  std::int32_t sum = 0;
+  const auto width = [&plan](std::size_t k) { return plan.stops[k + 1] - plan.stops[k]; };
+  for (std::size_t k = 0; k < stretches; ++k) {
+    share[k] = std::max(1, static_cast<std::int32_t>(std::floor(width(k) * scale + 0.5)));
+    sum += share[k];
+  }
+  while (sum != plan.count) {
+    const std::int32_t by = sum < plan.count ? 1 : -1;
+    std::size_t best = stretches;
+    for (std::size_t k = 0; k < stretches; ++k) {
+      if (by < 0 && share[k] == 1) continue;
+      const auto worse = [&](std::size_t i, std::size_t j) {
+        const double a = width(i) / (share[i] + 0.5 * by);
+        const double b = width(j) / (share[j] + 0.5 * by);
+        return by > 0 ? a > b : a < b;
+      };
+      if (best == stretches || worse(k, best)) best = k;
+    }
+    share[best] += by;
+    sum += by;
+  }
+  return share;
+}
+
+/// Arc lengths of the plan's nodes, both ends included.
+std::vector<double> nodePlaces(const Plan& plan) {
+  std::vector<double> places;
+  const std::vector<std::int32_t> share = shares(plan);
+  for (std::size_t k = 0; k < share.size(); ++k) {
+    const double from = plan.stops[k];
+    const double width = plan.stops[k + 1] - from;
+    for (std::int32_t i = 0; i < share[k]; ++i) {
+      places.push_back(interpolate(plan.integral, plan.sizes.arcLength, from + width * i / share[k]));
+    }
+  }
+  places.front() = 0.0;
+  places.push_back(plan.curve.length());
+  return places;
+}
+
+void placeNodes(DividedEdges& divided, const Plan& plan, const BrepEdge& edge) {
+  EdgeDivision division;
+  division.arcLength = nodePlaces(plan);
+  for (std::size_t i = 0; i < division.arcLength.size(); ++i) {
+    const double s = division.arcLength[i];
+    const double h = interpolate(plan.sizes.arcLength, plan.sizes.value, s);
+    const bool isStart = i == 0;
+    const bool isEnd = i + 1 == division.arcLength.size();
+    if (isStart || isEnd) {
+      const std::int32_t node = isStart ? edge.start : edge.end;
+      double& nodeSize = divided.nodeSize[static_cast<std::size_t>(node)];
+      nodeSize = nodeSize > 0.0 ? std::min(nodeSize, h) : h;
+      division.nodes.push_back(node);
+    } else {
+      division.nodes.push_back(static_cast<std::int32_t>(divided.nodes.size()));
+      divided.nodes.push_back(plan.curve.at(s));
+      divided.nodeSize.push_back(h);
+    }
+  }
+  divided.edges.push_back(std::move(division));
+}
+
+}  // namespace
+
+DividedEdges divideEdges(const TriangleMesh& mesh, const Brep& brep, const SizeField& size,
+                         const std::vector<std::int32_t>& minimumDivisions) {
+  std::vector<Plan> plans;
+  std::vector<double> wanted;
+  for (std::size_t e = 0; e < brep.edges.size(); ++e) {
+    const std::int32_t minimum = e < minimumDivisions.size() ? minimumDivisions[e] : 1;
+    plans.push_back(planEdge(mesh, brep.edges[e], size, e, minimum));
+    wanted.push_back(std::max(plans.back().wanted(), static_cast<double>(plans.back().least)));
+  }
+  const auto groups = oppositeEdges(brep, wanted);
+  settleGroups(plans, groups);
+
+  DividedEdges divided;
+  divided.oddFaces = makeEven(plans, brep, groups);
+  fillSmallLoops(plans, brep);
+  for (const BrepVertex& vertex : brep.vertices) {
+    divided.nodes.push_back(mesh.positions[static_cast<std::size_t>(vertex.point)]);
+    divided.nodeSize.push_back(0.0);
+  }
+  for (std::size_t e = 0; e < brep.edges.size(); ++e) placeNodes(divided, plans[e], brep.edges[e]);
+  for (double& h : divided.nodeSize) {
+    if (!(h > 0.0)) h = size.base;
+  }
+  return divided;
+}
+
+}  // namespace qmcf

@@ -1,0 +1,86 @@
+#include "edge_samples.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include "qmcf/base/math.hpp"
+#include "turning.hpp"
+
+namespace qmcf {
+namespace {
+
+/// The largest size in [lowest, highest] around s within which the curve turns by maxTurn at most.
+double sizeByTurning(const Turning& turning, double s, double maxTurn, double lowest, double highest) {
+  constexpr int kBisections = 24;
+  constexpr double kRoundOff = 1e-9;
+  if (turning.within(s, highest) <= maxTurn + kRoundOff) return highest;
+  double low = 0.0;
+  double high = highest;
+  for (int i = 0; i < kBisections && high > lowest; ++i) {
+    const double middle = 0.5 * (low + high);
+    (turning.within(s, middle) <= maxTurn + kRoundOff ? low : high) = middle;
+  }
+  return std::max(low, lowest);
+}
+
+}  // namespace
+
+void EdgeSamples::lower(std::int32_t edge, double s, double size) {
+  EdgeSizes& on = sizes[static_cast<std::size_t>(edge)];
+  const auto above = std::upper_bound(on.arcLength.begin() + 1, on.arcLength.end() - 1, s);
+  const auto after = static_cast<std::size_t>(above - on.arcLength.begin());
+  on.value[after] = std::min(on.value[after], size);
+  on.value[after - 1] = std::min(on.value[after - 1], size);
+}
+
+EdgeSamples sampleEdges(const TriangleMesh& mesh, const Brep& brep, double base, double spacing) {
+  EdgeSamples samples;
+  samples.base = base;
+  for (const BrepEdge& edge : brep.edges) {
+    EdgeCurve curve = edgeCurve(mesh, edge);
+    EdgeSizes sizes;
+    for (std::size_t i = 0; i + 1 < curve.points.size(); ++i) {
+      const double from = curve.arcLength[i];
+      const double length = curve.arcLength[i + 1] - from;
+      const double pieces = std::max(1.0, std::ceil(length / spacing));
+      for (double piece = 0.0; piece < pieces; piece += 1.0)
+        sizes.arcLength.push_back(from + length * (piece / pieces));
+    }
+    sizes.arcLength.push_back(curve.length());
+    sizes.value.assign(sizes.arcLength.size(), base);
+    samples.curves.push_back(std::move(curve));
+    samples.sizes.push_back(std::move(sizes));
+  }
+  return samples;
+}
+
+std::vector<std::int32_t> limitByTurning(EdgeSamples& samples, std::int32_t divisionsPerTurn, double lowest) {
+  // Wiggles below these are noise: of the element size, and of a small edge's own length.
+  constexpr double kOfSize = 0.02;
+  constexpr double kOfLength = 0.005;
+  constexpr double kNearlyFullTurn = 0.75;
+  const double fullTurn = 2.0 * math::kPi;
+  std::vector<std::int32_t> minimum(samples.curves.size(), 1);
+  for (std::size_t e = 0; e < samples.curves.size(); ++e) {
+    const EdgeCurve& curve = samples.curves[e];
+    if (curve.points.size() < 3) continue;
+    const Turning turning = turningOf(curve, std::min(kOfSize * samples.base, kOfLength * curve.length()));
+    if (curve.closed) minimum[e] = turning.total() >= kNearlyFullTurn * fullTurn ? divisionsPerTurn : 3;
+    EdgeSizes& sizes = samples.sizes[e];
+    for (std::size_t i = 0; i < sizes.value.size(); ++i) {
+      const double size = sizeByTurning(turning, sizes.arcLength[i], fullTurn / divisionsPerTurn, lowest, samples.base);
+      sizes.value[i] = std::min(sizes.value[i], size);
+    }
+  }
+  return minimum;
+}
+
+void limitByLength(EdgeSamples& samples, double lowest) {
+  for (std::size_t e = 0; e < samples.curves.size(); ++e) {
+    const double size = std::max(samples.curves[e].length(), lowest);
+    for (double& value : samples.sizes[e].value) value = std::min(value, size);
+  }
+}
+
+}  // namespace qmcf

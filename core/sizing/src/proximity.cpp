@@ -1,0 +1,153 @@
+// How far it is across a face: a straight geodesic is shot from an edge into the face, at a right angle to the edge,
+// through the unfolded triangles.
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+
+#include "edge_samples.hpp"
+#include "qmcf/base/vec.hpp"
+
+namespace qmcf {
+namespace {
+
+/// A point on a half-edge; fraction from its origin to its target.
+struct EdgePoint {
+  HalfedgeId halfedge;
+  double fraction = 0.0;
+};
+
+struct Hit {
+  EdgePoint point;
+  double distance = 0.0;
+};
+
+/// Walks straight from a boundary point into the surface until the boundary, at most maxDistance.
+std::optional<Hit> shootAcross(const Surface& surface, EdgePoint from, double maxDistance) {
+  constexpr int kMaxSteps = 20000;
+  Vec2 direction{0.0, 1.0};
+  double walked = 0.0;
+  for (int step = 0; step < kMaxSteps; ++step) {
+    // The frame of the triangle: x along the half-edge of entry, the triangle above.
+    const HalfedgeId h = from.halfedge;
+    const Vec3 a = surface.position(surface.origin(h));
+    const Vec3 along = surface.position(surface.target(h)) - a;
+    const Vec3 toApex = surface.position(surface.opposite(h)) - a;
+    const double length = norm(along);
+    if (!(length > 0.0)) return std::nullopt;
+    const Vec3 x = along / length;
+    const Vec2 b{length, 0.0};
+    const Vec2 c{dot(toApex, x), norm(tangentPart(toApex, x))};
+    const Vec2 p{length * from.fraction, 0.0};
+    const bool passesRightOfApex = cross(direction, c - p) > 0.0;
+    const HalfedgeId out = passesRightOfApex ? Surface::next(h) : Surface::prev(h);
+    const Vec2 start = passesRightOfApex ? b : c;
+    const Vec2 end = passesRightOfApex ? c : Vec2{};
+    const Vec2 side = end - start;
+    const double sideLength = norm(side);
+    const double determinant = cross(direction, side);
+    if (!(sideLength > 0.0) || !(std::fabs(determinant) > 0.0)) return std::nullopt;
+    const double fraction = std::clamp(cross(start - p, direction) / determinant, 0.0, 1.0);
+    walked += norm(start + side * fraction - p);
+    if (walked > maxDistance) return std::nullopt;
+    if (surface.isBoundary(out)) return Hit{{out, fraction}, walked};
+    const Vec2 back = side * (-1.0 / sideLength);
+    direction = {dot(direction, back), cross(back, direction)};
+    from = {surface.twin(out), 1.0 - fraction};
+  }
+  return std::nullopt;
+}
+
+/// Where a boundary half-edge of a face lies on the edges of the B-rep and in its loop.
+struct BoundaryPlace {
+  std::int32_t edge = kNone;
+  double start = 0.0;      ///< Arc length of the edge at the half-edge's origin.
+  double end = 0.0;        ///< Arc length of the edge at its target.
+  double alongLoop = 0.0;  ///< Length of the loop up to its origin.
+  std::int32_t loop = kNone;
+};
+
+struct FaceBoundary {
+  IdMap<HalfedgeId, BoundaryPlace> place;
+  std::vector<double> loopLength;
+};
+
+FaceBoundary boundaryOf(const BrepFace& face, const FaceSurface& cut, const EdgeSamples& samples) {
+  FaceBoundary boundary;
+  boundary.place.resize(cut.surface.halfedgeCount());
+  for (std::size_t l = 0; l < cut.loops.size(); ++l) {
+    double sum = 0.0;
+    std::size_t next = 0;
+    for (const Coedge& coedge : face.loops[l].coedges) {
+      const EdgeCurve& curve = samples.curves[static_cast<std::size_t>(coedge.edge)];
+      const std::size_t segments = curve.points.size() - 1;
+      for (std::size_t i = 0; i < segments && next < cut.loops[l].size(); ++i, ++next) {
+        const std::size_t from = coedge.reversed ? segments - i : i;
+        const std::size_t to = coedge.reversed ? from - 1 : from + 1;
+        BoundaryPlace& place = boundary.place[cut.loops[l][next]];
+        place = {coedge.edge, curve.arcLength[from], curve.arcLength[to], sum, static_cast<std::int32_t>(l)};
+        sum += std::fabs(place.end - place.start);
+      }
+    }
+    boundary.loopLength.push_back(sum);
+  }
+  return boundary;
+}
+
+double along(const BoundaryPlace& place, double fraction) { return place.start + (place.end - place.start) * fraction; }
+
+/// Whether the hit is merely on the other leg of a nearby corner or bend: then the way along the loop is short.
+bool isAround(const FaceBoundary& boundary, const BoundaryPlace& from, double fromFraction, const BoundaryPlace& to,
+              const Hit& hit) {
+  constexpr double kDetour = 3.0;
+  if (from.loop != to.loop) return false;
+  const double here = from.alongLoop + std::fabs(from.end - from.start) * fromFraction;
+  const double there = to.alongLoop + std::fabs(to.end - to.start) * hit.point.fraction;
+  const double oneWay = std::fabs(there - here);
+  const double way = std::min(oneWay, boundary.loopLength[static_cast<std::size_t>(from.loop)] - oneWay);
+  return way <= kDetour * hit.distance;
+}
+
+void shootFromHalfedge(EdgeSamples& samples, const Surface& surface, const FaceBoundary& boundary, HalfedgeId h,
+                       double lowest) {
+  const BoundaryPlace& place = boundary.place[h];
+  const std::vector<double>& arcs = samples.sizes[static_cast<std::size_t>(place.edge)].arcLength;
+  const double first = std::min(place.start, place.end);
+  const double last = std::max(place.start, place.end);
+  if (!(last > first)) return;
+  const auto from = std::lower_bound(arcs.begin(), arcs.end(), first);
+  for (auto it = from; it + 1 != arcs.end() && *it < last; ++it) {
+    const double s = 0.5 * (*it + *(it + 1));
+    const double fraction = std::clamp((s - place.start) / (place.end - place.start), 0.0, 1.0);
+    const std::optional<Hit> hit = shootAcross(surface, {h, fraction}, samples.base);
+    if (!hit) continue;
+    const BoundaryPlace& other = boundary.place[hit->point.halfedge];
+    if (other.edge == kNone || isAround(boundary, place, fraction, other, *hit)) continue;
+    // A strip can take elements longer than it is wide: the mean of both lengths keeps count and aspect at bay.
+    const double size = std::max(lowest, std::sqrt(hit->distance * samples.base));
+    samples.lower(place.edge, s, size);
+    samples.lower(other.edge, along(other, hit->point.fraction), size);
+  }
+}
+
+}  // namespace
+
+bool limitByProximity(EdgeSamples& samples, const TriangleMesh& mesh, const Brep& brep, double lowest,
+                      Progress& progress) {
+  for (std::size_t f = 0; f < brep.faces.size(); ++f) {
+    const double done = static_cast<double>(f) / static_cast<double>(brep.faces.size());
+    if (!progress.report(Stage::sizing, 0.2 + 0.5 * done)) return false;
+    const BrepFace& face = brep.faces[f];
+    if (face.loops.empty()) continue;
+    const FaceSurface cut = faceSurface(mesh, brep, static_cast<std::int32_t>(f));
+    const FaceBoundary boundary = boundaryOf(face, cut, samples);
+    for (const auto& loop : cut.loops) {
+      for (const HalfedgeId h : loop) {
+        if (boundary.place[h].edge != kNone) shootFromHalfedge(samples, cut.surface, boundary, h, lowest);
+      }
+    }
+  }
+  return true;
+}
+
+}  // namespace qmcf

@@ -1,0 +1,126 @@
+#include "qmcf/sizing/size_field.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <string>
+#include <utility>
+
+#include "edge_samples.hpp"
+#include "min_heap.hpp"
+
+namespace qmcf {
+namespace {
+
+// In units of the base size: how small the edges themselves may make an element.
+constexpr double kLowestByTurning = 0.1;
+constexpr double kLowestByProximity = 0.25;
+constexpr double kLowestByLength = 0.3;
+constexpr double kSampleSpacing = 0.5;
+constexpr std::int64_t kDefaultQuads = 3000;
+constexpr std::int64_t kMostQuads = 10'000'000;
+
+Error invalid(std::string message) { return {ErrorCode::invalidOption, std::move(message), {}}; }
+
+Result<double> baseSize(const Brep& brep, const SizingOptions& options) {
+  if (options.size && options.quads) return invalid("Give either an element size or a number of quads, not both.");
+  double area = 0.0;
+  for (const BrepFace& face : brep.faces) area += face.area;
+  if (!(area > 0.0)) return Error{ErrorCode::noSurface, "The part has no area to mesh.", {}};
+  if (options.size) {
+    if (!(*options.size > 0.0) || !std::isfinite(*options.size)) return invalid("The element size must be above 0.");
+    if (area / *options.size / *options.size > static_cast<double>(kMostQuads)) {
+      return invalid("This element size would take more than 10,000,000 quads; choose a larger one.");
+    }
+    return *options.size;
+  }
+  const std::int64_t quads = options.quads.value_or(kDefaultQuads);
+  if (quads < 1 || quads > kMostQuads) return invalid("The number of quads must be between 1 and 10,000,000.");
+  return std::sqrt(area / static_cast<double>(quads));
+}
+
+/// Neighbours along the edges of the triangles, as one flat table.
+struct Adjacency {
+  std::vector<std::size_t> first;
+  std::vector<std::int32_t> vertex;
+};
+
+Adjacency adjacencyOf(const TriangleMesh& mesh) {
+  Adjacency adjacency;
+  adjacency.first.assign(mesh.positions.size() + 1, 0);
+  for (const auto& t : mesh.triangles) {
+    for (const std::int32_t v : t) adjacency.first[static_cast<std::size_t>(v) + 1] += 2;
+  }
+  for (std::size_t v = 0; v < mesh.positions.size(); ++v) adjacency.first[v + 1] += adjacency.first[v];
+  adjacency.vertex.resize(adjacency.first.back());
+  std::vector<std::size_t> next = adjacency.first;
+  for (const auto& t : mesh.triangles) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      const auto v = static_cast<std::size_t>(t[c]);
+      adjacency.vertex[next[v]++] = t[(c + 1) % 3];
+      adjacency.vertex[next[v]++] = t[(c + 2) % 3];
+    }
+  }
+  return adjacency;
+}
+
+/// Sizes at the vertices of the mesh: those on edges are given, the others are graded along the triangles' edges.
+std::vector<double> vertexSizes(const TriangleMesh& mesh, const Brep& brep, const EdgeSamples& samples,
+                                double gradation) {
+  std::vector<double> value(mesh.positions.size(), samples.base);
+  for (std::size_t e = 0; e < brep.edges.size(); ++e) {
+    const EdgeCurve& curve = samples.curves[e];
+    for (std::size_t i = 0; i < curve.points.size(); ++i) {
+      double& v = value[static_cast<std::size_t>(brep.edges[e].points[i])];
+      v = std::min(v, interpolate(samples.sizes[e].arcLength, samples.sizes[e].value, curve.arcLength[i]));
+    }
+  }
+  MinHeap heap;
+  for (std::size_t v = 0; v < value.size(); ++v) {
+    if (value[v] < samples.base) heap.push(value[v], static_cast<std::int32_t>(v));
+  }
+  if (heap.empty()) return value;
+  const Adjacency adjacency = adjacencyOf(mesh);
+  while (!heap.empty()) {
+    const auto [size, vertex] = heap.pop();
+    const auto v = static_cast<std::size_t>(vertex);
+    if (size > value[v]) continue;
+    for (std::size_t i = adjacency.first[v]; i < adjacency.first[v + 1]; ++i) {
+      const auto w = static_cast<std::size_t>(adjacency.vertex[i]);
+      const double graded = size + gradation * distance(mesh.positions[v], mesh.positions[w]);
+      if (!(graded < value[w])) continue;
+      value[w] = graded;
+      heap.push(graded, adjacency.vertex[i]);
+    }
+  }
+  return value;
+}
+
+}  // namespace
+
+Result<SizeField> computeSizeField(const TriangleMesh& mesh, const Brep& brep, const SizingOptions& options,
+                                   Progress& progress) {
+  if (!(options.gradation > 0.0) || options.gradation > 1.0) {
+    return invalid("The gradation must be above 0 and at most 1.");
+  }
+  if (options.divisionsPerTurn < 3) return invalid("A full turn needs at least 3 divisions.");
+  const Result<double> base = baseSize(brep, options);
+  if (!base.ok()) return base.error();
+  if (!progress.report(Stage::sizing, 0.0)) return cancelledError();
+
+  SizeField field;
+  field.base = base.value();
+  field.gradation = options.gradation;
+  EdgeSamples samples = sampleEdges(mesh, brep, field.base, kSampleSpacing * field.base);
+  field.minimumDivisions = limitByTurning(samples, options.divisionsPerTurn, kLowestByTurning * field.base);
+  limitByLength(samples, kLowestByLength * field.base);
+  if (!progress.report(Stage::sizing, 0.2)) return cancelledError();
+  if (!limitByProximity(samples, mesh, brep, kLowestByProximity * field.base, progress)) return cancelledError();
+  gradeEdges(samples, brep, options.gradation);
+  if (!progress.report(Stage::sizing, 0.8)) return cancelledError();
+  field.value = vertexSizes(mesh, brep, samples, options.gradation);
+  field.edges = std::move(samples.sizes);
+  return field;
+}
+
+}  // namespace qmcf
