@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "qmcf/base/result.hpp"
@@ -11,18 +12,19 @@
 
 namespace qmcf {
 
-/// Mean, worst and quantiles of one metric over the elements.
+/// Mean, worst and quantiles of one metric over the elements for which it is finite; all 0 when there is none.
 struct Distribution {
   double mean = 0.0;
   double worst = 0.0;
-  double p1 = 0.0;      ///< The quantile below (or, for ratios >= 1, above) which the worst 1 % lie.
+  double p1 = 0.0;  ///< The worst 1 % of the elements are worse than this (interpolated between elements).
   double median = 0.0;
+  std::int64_t infinite = 0;  ///< Elements left out because the metric is not finite.
 };
 
 /// Shape of one quadrilateral. Definitions and sources: section F of docs/algorithm.md.
 struct QuadMetrics {
-  double scaledJacobian = 0.0;      ///< min over corners, in [-1, 1], 1 best (Verdict).
-  double jacobianRatio = 0.0;       ///< max / min at the corners, >= 1, 1 best (ANSYS, MAPDL form); infinite if inverted.
+  double scaledJacobian = 0.0;  ///< min over corners, in [-1, 1], 1 best (Verdict).
+  double jacobianRatio = 0.0;   ///< max / min at the corners, >= 1, 1 best (ANSYS, MAPDL form); infinite if inverted.
   double jacobianRatioGauss = 0.0;  ///< The same at the 2 x 2 Gauss points.
   double aspectRatio = 0.0;         ///< ANSYS rectangles, >= 1, 1 best.
   double edgeRatio = 0.0;           ///< Longest over shortest edge.
@@ -32,29 +34,61 @@ struct QuadMetrics {
   double skewness = 0.0;            ///< Equiangle, in [0, 1], 0 best.
   double warpage = 0.0;             ///< Degrees between the normals across a diagonal, larger of the two.
 };
+/// Metrics that divide by a vanishing length or area are infinite (ratios) or 0 (scaled Jacobian, orthogonal quality).
 QuadMetrics quadMetrics(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
-/// Scaled Jacobian of a triangle, 1 for the equilateral one.
+/// The scaled Jacobian alone, for those who need it often.
+double quadScaledJacobian(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
+/// Scaled Jacobian of a triangle in [0, 1]: 1 for the equilateral one, 0 for one without area.
 double triangleScaledJacobian(const Vec3& a, const Vec3& b, const Vec3& c);
+
+/// What a check of the validator came to.
+enum class CheckStatus : std::uint8_t {
+  pass,
+  warn,  ///< Worth knowing; the mesh is valid all the same.
+  fail,  ///< The mesh is not valid.
+  skip,  ///< Can't be decided: the reference is missing or does not have the property itself.
+};
+/// The status' name; the same in C++, JSON and TypeScript.
+std::string_view checkStatusName(CheckStatus status);
 
 /// One check of the validator.
 struct ValidityCheck {
-  std::string name;
-  std::int64_t count = 0;              ///< Defects found; 0 passes.
-  std::vector<std::int64_t> elements;  ///< At most 100 element or vertex ids, as the sentence says.
+  std::string name;  ///< Identifier, e.g. "nonManifoldEdges".
+  CheckStatus status = CheckStatus::pass;
+  std::int64_t count = 0;              ///< Defects found; 0 unless the status is warn or fail.
+  std::vector<std::int64_t> elements;  ///< At most 100 ids, 0-based: of elements or vertices, as the sentence says.
   std::string sentence;                ///< For a person; empty when passed.
 };
 
-/// What a mesh is and how good it is.
+/// The checks of a mesh, in a fixed order.
+struct ValidityReport {
+  std::vector<ValidityCheck> checks;
+  bool valid = true;  ///< No check failed.
+};
+
+/// Structural checks of a mesh alone, cheap enough to follow every stage: O(n), no search in space.
+/// "empty", "indexOutOfRange", "nonFiniteCoordinate", "repeatedCorner", "duplicateElements", "orientationConflicts",
+/// "invertedElements" (quads with scaled Jacobian <= 0, triangles without area), "featureSegments" (segments that are
+/// no edge of the mesh) and "nonManifoldEdges" (more than two elements, off the feature segments) fail;
+/// "nonManifoldVertices" (more than one fan, off the feature segments) and "unreferencedVertices" warn.
+/// Elements that fail one of the second to fourth check are left out of the others.
+ValidityReport validateMesh(const QuadMesh& mesh);
+
+/// What a mesh is and how good it is. Lengths are in units of the mesh, angles in degrees.
 struct QualityReport {
   std::int64_t vertices = 0;
   std::int64_t quads = 0;
   std::int64_t triangles = 0;
   double quadShare = 0.0;              ///< quads / elements.
-  double regularShare = 0.0;           ///< Interior vertices with four elements / interior vertices.
-  std::int64_t irregularVertices = 0;
+  double regularShare = 0.0;           ///< Interior vertices with exactly four elements, all quads / interior vertices.
+  std::int64_t interiorVertices = 0;   ///< On no boundary or non-manifold edge, with one fan of elements.
+  std::int64_t irregularVertices = 0;  ///< Interior vertices that are not regular.
+  std::int64_t doublets = 0;           ///< Interior vertices with only two elements.
   std::int64_t boundaryEdges = 0;
-  std::int64_t eulerCharacteristic = 0;
-  Distribution scaledJacobian;
+  std::int64_t components = 0;           ///< Connected through vertices.
+  std::int64_t eulerCharacteristic = 0;  ///< Vertices - edges + elements, unreferenced vertices excluded.
+  double area = 0.0;
+  Distribution scaledJacobian;  ///< This and the following ones over the quads.
   Distribution jacobianRatio;
   Distribution jacobianRatioGauss;
   Distribution aspectRatio;
@@ -64,23 +98,29 @@ struct QualityReport {
   Distribution maxAngle;
   Distribution skewness;
   Distribution warpage;
-  double sizeError = 0.0;              ///< Mean |log2(l / h)| over edges, when a size is known.
-  std::optional<double> largestDistance;      ///< Of vertices and element centres from the reference, in its units.
-  std::optional<double> sharpRecall;          ///< Share of the reference's sharp edge length that the mesh keeps.
-  std::optional<double> boundaryRecall;
-  std::optional<double> cornerRecall;
+  Distribution triangleScaledJacobian;      ///< Over the triangles.
+  double size = 0.0;                        ///< The target length that sizeError and the recalls were measured with.
+  double sizeError = 0.0;                   ///< Mean |log2(l / size)| over edges.
+  std::optional<double> meanDistance;       ///< Of element centres from the reference, weighted by area.
+  std::optional<double> largestDistance;    ///< Of vertices and element centres from the reference.
+  std::optional<double> largestGap;         ///< Of the reference's vertices and triangle centres from the mesh.
+  std::optional<double> sharpRecall;        ///< Share of the reference's sharp edge length that the mesh keeps.
+  std::optional<double> boundaryRecall;     ///< The same of its boundary. Absent when the reference has none.
+  std::optional<double> nonManifoldRecall;  ///< The same of its non-manifold edges.
+  std::optional<double> cornerRecall;       ///< Share of the reference's feature corners that have a vertex.
   std::vector<ValidityCheck> checks;
-  bool valid = false;
+  bool valid = false;  ///< No check failed.
 };
 
-/// Structural checks of a mesh alone: indices, finite coordinates, repeated corners, duplicate elements, manifold edges
-/// (other than those that lie on featureSegments or in `reference` as non-manifold), orientation, inverted elements.
 struct QualityOptions {
-  std::optional<double> size;       ///< Target length for sizeError; default: square root of the mean quad area.
-  double featureAngle = 30.0;       ///< Degrees; for the reference's sharp edges.
+  std::optional<double> size;  ///< Target length, > 0; default: square root of the mean quad area.
+  double featureAngle = 30.0;  ///< Degrees; dihedral angle from which an edge of the reference is sharp.
 };
 
-/// Measures and validates. reference may be null: then there are no fidelity figures.
+/// Measures and validates. reference may be null: then there are no fidelity figures and the checks are those of
+/// validateMesh(). With it, defects that the reference has itself are allowed, and there are further checks:
+/// "boundary", "cracks", "tJunctions", "components", "euler", "coverage" (area) and "facesTurnedOver" (against the
+/// reference's normals). The reference may be a soup: it is welded by exact position. Complexity O((n + m) log(n + m)).
 QualityReport measureQuality(const QuadMesh& mesh, const TriangleMesh* reference, const QualityOptions& options);
 
 }  // namespace qmcf

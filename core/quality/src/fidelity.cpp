@@ -1,0 +1,118 @@
+#include "fidelity.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace qmcf::quality {
+namespace {
+
+constexpr double kCornerInset =
+    0.25;  ///< Of the way from a corner to the element's centre: where its patch is looked for.
+constexpr double kPatchReach = 0.1;  ///< Of the square root of the element's area, beyond the distance to the patch.
+constexpr std::size_t kGapSamples = 4000;  ///< Vertices and triangles of the reference that are looked at, at most.
+
+/// The mesh as triangles: quadrilaterals become the fan around their centre.
+TriangleBvh treeOf(const MeasuredMesh& measured) {
+  std::vector<Vec3> positions = measured.mesh.positions;
+  std::vector<std::array<std::int32_t, 3>> triangles;
+  triangles.reserve(measured.mesh.elements.size() * 4);
+  for (std::size_t e = 0; e < measured.mesh.elements.size(); ++e) {
+    if (measured.usable[e] == 0) continue;
+    const Element& element = measured.mesh.elements[e];
+    if (cornerCount(element) == 3) {
+      triangles.push_back({element[0], element[1], element[2]});
+      continue;
+    }
+    const auto centre = static_cast<std::int32_t>(positions.size());
+    positions.push_back(measured.centres[e]);
+    for (std::size_t c = 0; c < 4; ++c) triangles.push_back({element[c], element[(c + 1) % 4], centre});
+  }
+  return {positions, triangles};
+}
+
+double distanceTo(const TriangleBvh& tree, const Vec3& point) { return std::sqrt(tree.closest(point).squaredDistance); }
+
+double largestGapOf(const MeasuredMesh& measured, const Reference& reference) {
+  const TriangleBvh tree = treeOf(measured);
+  if (tree.empty()) return 0.0;
+  double largest = 0.0;
+  const std::size_t vertexStep = (reference.positions.size() + kGapSamples - 1) / kGapSamples;
+  for (std::size_t v = 0; v < reference.positions.size(); v += vertexStep) {
+    largest = std::max(largest, distanceTo(tree, reference.positions[v]));
+  }
+  const std::size_t triangleStep = (reference.triangles.size() + kGapSamples - 1) / kGapSamples;
+  for (std::size_t t = 0; t < reference.triangles.size(); t += triangleStep) {
+    Vec3 sum;
+    for (std::size_t c = 0; c < 3; ++c) sum += reference.positions[static_cast<std::size_t>(reference.triangles[t][c])];
+    largest = std::max(largest, distanceTo(tree, sum / 3.0));
+  }
+  return largest;
+}
+
+bool isTurnedOver(const MeasuredMesh& measured, std::size_t e, const Reference& reference,
+                  const ClosestPoint& projected) {
+  const Element& element = measured.mesh.elements[e];
+  const Vec3& centre = measured.centres[e];
+  const std::size_t corners = cornerCount(element);
+  const auto at = [&](std::size_t corner) -> const Vec3& {
+    return measured.mesh.positions[static_cast<std::size_t>(element[corner % corners])];
+  };
+  const auto normalOf = [&](std::int32_t treeTriangle) -> const Vec3& {
+    const auto triangle = static_cast<std::size_t>(reference.bvhTriangle[static_cast<std::size_t>(treeTriangle)]);
+    return reference.normals[triangle];
+  };
+  const Vec3& under = normalOf(projected.triangle);
+  for (std::size_t c = 0; c < corners; ++c) {
+    const Vec3 normal = cross(at(c + 1) - at(c), at(c + corners - 1) - at(c));
+    if (dot(normal, under) >= 0.0) continue;
+    const Vec3 point = at(c) + (centre - at(c)) * kCornerInset;
+    const double reach = distanceTo(reference.bvh, point) + kPatchReach * std::sqrt(measured.areas[e]);
+    const ClosestPoint agreeing = reference.bvh.closest(point, normalized(normal), 0.0);
+    const bool agrees = dot(normal, normalOf(agreeing.triangle)) >= 0.0 && agreeing.squaredDistance <= reach * reach;
+    if (!agrees) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+std::vector<ClosestPoint> projectCentres(const MeasuredMesh& measured, const Reference& reference) {
+  std::vector<ClosestPoint> result(measured.mesh.elements.size());
+  for (std::size_t e = 0; e < result.size(); ++e) {
+    if (measured.usable[e] != 0) result[e] = reference.bvh.closest(measured.centres[e]);
+  }
+  return result;
+}
+
+Distances measureDistances(const MeasuredMesh& measured, const Reference& reference,
+                           const std::vector<ClosestPoint>& projected) {
+  Distances result;
+  for (std::size_t v = 0; v < measured.mesh.positions.size(); ++v) {
+    if (measured.structure.elementsAround[v] == 0) continue;
+    result.largest = std::max(result.largest, distanceTo(reference.bvh, measured.mesh.positions[v]));
+  }
+  double area = 0.0;
+  for (std::size_t e = 0; e < measured.mesh.elements.size(); ++e) {
+    if (measured.usable[e] == 0) continue;
+    const double d = std::sqrt(projected[e].squaredDistance);
+    result.largest = std::max(result.largest, d);
+    result.mean += d * measured.areas[e];
+    area += measured.areas[e];
+  }
+  if (area > 0.0) result.mean /= area;
+  result.largestGap = largestGapOf(measured, reference);
+  return result;
+}
+
+std::vector<std::int64_t> findTurnedOver(const MeasuredMesh& measured, const Reference& reference,
+                                         const std::vector<ClosestPoint>& projected) {
+  std::vector<std::int64_t> result;
+  for (std::size_t e = 0; e < measured.mesh.elements.size(); ++e) {
+    if (measured.usable[e] != 0 && isTurnedOver(measured, e, reference, projected[e]))
+      result.push_back(static_cast<std::int64_t>(e));
+  }
+  return result;
+}
+
+}  // namespace qmcf::quality
