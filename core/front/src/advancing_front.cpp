@@ -1,0 +1,393 @@
+// The advancing front of QMCF: section 4 of the paper (Owen et al. 1999 with side edges from cross field and size field).
+#include "qmcf/front/advancing_front.hpp"
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+#include "front_mesh.hpp"
+#include "front_queue.hpp"
+#include "leftover.hpp"
+#include "quad_formation.hpp"
+#include "recovery.hpp"
+#include "seam.hpp"
+#include "side_edge.hpp"
+#include "star.hpp"
+
+namespace qmcf {
+namespace {
+
+/// Least quality of a new quad and of the triangles beside it, by how desperate the front is.
+constexpr std::array<double, 3> kLeastQuad{0.3, 0.12, 0.03};
+constexpr int kPasses = static_cast<int>(kLeastQuad.size());
+constexpr std::size_t kMaxAttempts = 6;
+
+class Advance {
+ public:
+  Advance(const Patch& patch, const CrossField& field, const FrontOptions& options)
+      : front_(patch, field), options_(options) {}
+
+  Result<FrontResult> run(Progress& progress);
+
+ private:
+  EditMesh& mesh() { return front_.mesh(); }
+
+  void startFronts();
+  void enqueue(HalfedgeId h);
+  void enqueueAround(const std::vector<VertexId>& vertices);
+  bool advanceFrom(HalfedgeId h, int pass);
+  std::vector<SideProposal> sides(HalfedgeId sector, int wanted, bool left, const std::optional<Vec3>& closure) const;
+  bool tryQuad(HalfedgeId base, const SideProposal& left, const SideProposal& right, int pass);
+  VertexId realize(HalfedgeId sector, const SideProposal& side);
+  int oddLoops(const std::vector<HalfedgeId>& edges) const;
+  std::vector<HalfedgeId> frontEdgesAt(VertexId v) const;
+  void finishQuad(FaceId f, int level);
+  void closeSmallLoops(const std::vector<HalfedgeId>& edges, int pass);
+  void relaxAround(const std::vector<VertexId>& vertices);
+  std::int32_t& level(HalfedgeId h) {
+    if (h.index() >= levels_.size()) levels_.resize(std::max(h.index() + 1, 2 * levels_.size()), 0);
+    return levels_[h.index()];
+  }
+
+  FrontMesh front_;
+  FrontOptions options_;
+  FrontStatistics statistics_;
+  FrontQueue queue_;
+  std::vector<std::int32_t> levels_;
+};
+
+void Advance::enqueue(HalfedgeId h) {
+  const int wantedLeft = front_.wantedQuads(h);
+  const int wantedRight = front_.wantedQuads(front_.nextFront(h));
+  const bool seam = wantedLeft == 0 || wantedRight == 0;
+  const int open = (wantedLeft > 1 ? 1 : 0) + (wantedRight > 1 ? 1 : 0);
+  queue_.push(h, seam ? -1 : level(h), open);
+}
+
+std::vector<HalfedgeId> Advance::frontEdgesAt(VertexId v) const {
+  std::vector<HalfedgeId> edges;
+  front_.mesh().forEachOutgoing(v, [&](HalfedgeId h) {
+    if (!front_.isFront(h)) return;
+    edges.push_back(h);
+    edges.push_back(front_.previousFront(h));
+  });
+  return edges;
+}
+
+void Advance::enqueueAround(const std::vector<VertexId>& vertices) {
+  std::vector<HalfedgeId> edges;
+  for (const VertexId v : vertices) {
+    if (!mesh().alive(v)) continue;
+    const auto at = frontEdgesAt(v);
+    edges.insert(edges.end(), at.begin(), at.end());
+  }
+  std::sort(edges.begin(), edges.end());
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  for (const HalfedgeId h : edges) enqueue(h);
+}
+
+int Advance::oddLoops(const std::vector<HalfedgeId>& edges) const {
+  std::vector<HalfedgeId> seen;
+  int odd = 0;
+  for (const HalfedgeId h : edges) {
+    if (!front_.isFront(h)) continue;
+    HalfedgeId smallest = h;
+    int length = 1;
+    for (HalfedgeId e = front_.nextFront(h); e != h; e = front_.nextFront(e)) {
+      smallest = std::min(smallest, e);
+      ++length;
+    }
+    if (std::find(seen.begin(), seen.end(), smallest) != seen.end()) continue;
+    seen.push_back(smallest);
+    odd += length % 2;
+  }
+  return odd;
+}
+
+VertexId Advance::realize(HalfedgeId sector, const SideProposal& side) {
+  if (side.existing.valid()) return side.existing;
+  constexpr double kReuse = 0.4;
+  return insertVertex(front_, sector, side.vertex, kReuse * front_.sizeAt(side.vertex.location));
+}
+
+std::vector<SideProposal> Advance::sides(HalfedgeId sector, int wanted, bool left, const std::optional<Vec3>& closure) const {
+  const EditMesh& view = front_.mesh();
+  if (wanted > 1) return proposeSide(front_, {sector, wanted, left, closure}, options_);
+  SideProposal there;
+  there.existing = left ? view.origin(front_.previousFront(sector)) : view.target(sector);
+  there.vertex = view.vertex(there.existing);
+  return {there};
+}
+
+bool Advance::advanceFrom(HalfedgeId h, int pass) {
+  EditMesh& m = mesh();
+  const HalfedgeId following = front_.nextFront(h);
+  const int length = front_.loopLength(h, 6).value_or(7);
+  if (length <= 6) {
+    const auto faces = closeLoop(front_, h, length, kLeastQuad[static_cast<std::size_t>(pass)]);
+    if (!faces.empty()) {
+      statistics_.quads += static_cast<std::int64_t>(faces.size());
+      m.commit();
+      return true;
+    }
+    if (length == 4) return false;
+  }
+  int wantedLeft = front_.wantedQuads(h);
+  int wantedRight = front_.wantedQuads(following);
+  for (const HalfedgeId apex : {h, following}) {
+    if ((apex == h ? wantedLeft : wantedRight) != 0) continue;
+    const HalfedgeId before = front_.previousFront(apex);
+    const VertexId kept = closeSeam(front_, apex, 0.5 * kLeastQuad[static_cast<std::size_t>(pass)]);
+    if (!kept.valid()) continue;
+    static_cast<void>(before);
+    ++statistics_.seams;
+    makeDelaunay(front_, {kept});
+    relaxAround({kept});
+    m.commit();
+    std::vector<VertexId> around{kept};
+    for (const HalfedgeId e : frontEdgesAt(kept)) {
+      around.push_back(m.origin(e));
+      around.push_back(m.target(e));
+    }
+    enqueueAround(around);
+    return true;
+  }
+  wantedLeft = std::max(1, wantedLeft);
+  wantedRight = std::max(1, wantedRight);
+
+  // Where one side is there already, the other one may complete a parallelogram.
+  const Vec3 a = m.position(m.origin(h));
+  const Vec3 b = m.position(m.target(h));
+  std::optional<Vec3> leftClosure;
+  std::optional<Vec3> rightClosure;
+  if (wantedLeft == 1 && wantedRight == 2) rightClosure = b + (m.position(m.origin(front_.previousFront(h))) - a);
+  if (wantedRight == 1 && wantedLeft == 2) leftClosure = a + (m.position(m.target(following)) - b);
+  const auto lefts = sides(h, wantedLeft, true, leftClosure);
+  const auto rights = sides(following, wantedRight, false, rightClosure);
+  std::vector<std::pair<double, std::pair<std::size_t, std::size_t>>> order;
+  for (std::size_t i = 0; i < lefts.size(); ++i) {
+    for (std::size_t j = 0; j < rights.size(); ++j) order.push_back({lefts[i].cost + rights[j].cost, {i, j}});
+  }
+  std::sort(order.begin(), order.end());
+  if (order.size() > kMaxAttempts) order.resize(kMaxAttempts);
+  for (const auto& [cost, choice] : order) {
+    if (tryQuad(h, lefts[choice.first], rights[choice.second], pass)) return true;
+    ++statistics_.rollbacks;
+  }
+  return false;
+}
+
+bool Advance::tryQuad(HalfedgeId base, const SideProposal& left, const SideProposal& right, int pass) {
+  EditMesh& m = mesh();
+  const HalfedgeId following = front_.nextFront(base);
+  const HalfedgeId previous = front_.previousFront(base);
+  const VertexId a = m.origin(base);
+  const VertexId b = m.target(base);
+  const bool leftThere = left.existing.valid() && left.existing == m.origin(previous);
+  const bool rightThere = right.existing.valid() && right.existing == m.target(following);
+  const bool joins = (left.existing.valid() && !leftThere) || (right.existing.valid() && !rightThere) || (leftThere && rightThere);
+  if (left.existing.valid() && left.existing == right.existing) return false;
+
+  std::vector<HalfedgeId> touched{base};
+  int oddBefore = 0;
+  if (joins) {
+    for (const VertexId v : {left.existing, right.existing}) {
+      if (!v.valid()) continue;
+      const auto at = frontEdgesAt(v);
+      touched.insert(touched.end(), at.begin(), at.end());
+    }
+    oddBefore = oddLoops(touched);
+  }
+
+  const std::size_t mark = m.mark();
+  const std::int32_t baseLevel = level(base);
+  const auto undo = [&] {
+    m.rollback(mark);
+    return false;
+  };
+  const VertexId d = realize(base, left);
+  if (!d.valid()) return undo();
+  if (!leftThere && !recoverEdge(front_, base, d).valid()) return undo();
+  const VertexId c = realize(following, right);
+  if (!c.valid() || c == d) return undo();
+  if (!rightThere && !recoverEdge(front_, following, c).valid()) return undo();
+  const HalfedgeId downwards = m.find(d, a);
+  if (!downwards.valid() || !m.isOpen(downwards)) return undo();
+  const HalfedgeId top = m.find(c, d);
+  if (!(top.valid() && m.isOpen(top)) && !recoverEdge(front_, downwards, c).valid()) return undo();
+  const auto formed = formElement(front_, {a, b, c, d}, kLeastQuad[static_cast<std::size_t>(pass)]);
+  if (!formed) return undo();
+
+  if (joins) {
+    std::vector<HalfedgeId> edges;
+    for (const VertexId v : {a, b, c, d}) {
+      const auto at = frontEdgesAt(v);
+      edges.insert(edges.end(), at.begin(), at.end());
+    }
+    if (pass + 1 < kPasses && oddLoops(edges) > oddBefore) return undo();
+    ++statistics_.collisions;
+  }
+  makeDelaunay(front_, {a, b, c, d});
+  if (joins) relaxAround({a, b, c, d});
+  m.commit();
+  finishQuad(*formed, baseLevel);
+  return true;
+}
+
+void Advance::finishQuad(FaceId f, int baseLevel) {
+  EditMesh& m = mesh();
+  ++statistics_.quads;
+  std::vector<VertexId> corners;
+  std::vector<HalfedgeId> created;
+  const HalfedgeId first = m.halfedge(f);
+  HalfedgeId h = first;
+  do {
+    corners.push_back(m.origin(h));
+    const HalfedgeId t = m.twin(h);
+    if (t.valid() && front_.isFront(t)) {
+      created.push_back(t);
+      level(t) = baseLevel + 1;
+    }
+    h = m.next(h);
+  } while (h != first);
+  enqueueAround(corners);
+}
+
+/// Moves the free-standing nodes around a collision towards parallelograms (section 4.2: "relaxation near front
+/// collisions").
+void Advance::relaxAround(const std::vector<VertexId>& vertices) {
+  EditMesh& m = mesh();
+  std::vector<VertexId> moving = vertices;
+  for (const VertexId v : vertices) {
+    m.forEachOutgoing(v, [&](HalfedgeId h) { moving.push_back(m.target(h)); });
+  }
+  std::sort(moving.begin(), moving.end());
+  moving.erase(std::unique(moving.begin(), moving.end()), moving.end());
+  constexpr int kSweeps = 2;
+  for (int sweep = 0; sweep < kSweeps; ++sweep) {
+    for (const VertexId v : moving) {
+      if (front_.isFixed(v)) continue;
+      Vec3 sum;
+      int count = 0;
+      m.forEachOutgoing(v, [&](HalfedgeId h) {
+        const FaceId f = m.face(h);
+        if (m.kind(f) != FaceKind::element || m.cornerCount(f) != 4) return;
+        const HalfedgeId n = m.next(h);
+        sum += m.position(m.origin(n)) + m.position(m.origin(m.prev(h))) - m.position(m.origin(m.next(n)));
+        ++count;
+      });
+      if (count < 2) continue;
+      const Vec3 aim = (m.position(v) + sum / count) * 0.5;
+      constexpr double kLeast = 0.3;
+      front_.tryMove(v, front_.vertexNear(m.vertex(v).location, aim), kLeast);
+    }
+  }
+}
+
+void Advance::startFronts() {
+  if (options_.patterns) {
+    for (const Singularity& singularity : front_.field().singularities) {
+      if (placeStar(front_, singularity)) ++statistics_.stars;
+    }
+  }
+  bool any = false;
+  for (std::size_t i = 0; i < mesh().halfedgeCapacity() && !any; ++i) any = front_.isFront(HalfedgeId(i));
+  if (!any) placeSeed(front_);
+  mesh().commit();
+  for (std::size_t i = 0; i < mesh().halfedgeCapacity(); ++i) {
+    if (front_.isFront(HalfedgeId(i))) enqueue(HalfedgeId(i));
+  }
+}
+
+FaceMesh extract(const FrontMesh& front) {
+  const EditMesh& mesh = front.mesh();
+  FaceMesh result;
+  IdMap<VertexId, std::int32_t> index(mesh.vertexCapacity(), kNone);
+  for (std::size_t i = 0; i < mesh.vertexCapacity(); ++i) {
+    const VertexId v(i);
+    if (!mesh.alive(v)) continue;
+    index[v] = static_cast<std::int32_t>(result.positions.size());
+    result.positions.push_back(mesh.position(v));
+    result.normals.push_back(mesh.normal(v));
+    result.locations.push_back(mesh.vertex(v).location);
+    result.patchVertex.push_back(mesh.isBoundary(v) ? v.value : kNone);
+  }
+  for (std::size_t i = 0; i < mesh.faceCapacity(); ++i) {
+    const FaceId f(i);
+    if (mesh.kind(f) == FaceKind::removed) continue;
+    Element element{kNone, kNone, kNone, kNone};
+    HalfedgeId h = mesh.halfedge(f);
+    for (int c = 0; c < mesh.cornerCount(f); ++c, h = mesh.next(h)) element[static_cast<std::size_t>(c)] = index[mesh.origin(h)];
+    result.elements.push_back(element);
+  }
+  return result;
+}
+
+Result<FrontResult> Advance::run(Progress& progress) {
+  startFronts();
+  const double expected = static_cast<double>(front_.patch().surface.triangleCount());
+  std::vector<HalfedgeId> failed;
+  int pass = 0;
+  bool advanced = false;
+  // Every success consumes open area, every failure waits for one: bounded by the number of quads times the passes.
+  const std::size_t maxSteps = 10000 + 400 * front_.patch().surface.triangleCount();
+  for (std::size_t step = 0; step < maxSteps; ++step) {
+    if (step % 64 == 0 && !progress.report(Stage::front, std::min(1.0, static_cast<double>(statistics_.quads) / expected))) {
+      return cancelledError();
+    }
+    const HalfedgeId h = queue_.pop();
+    if (h.valid()) {
+      if (!front_.isFront(h)) continue;
+      if (advanceFrom(h, pass)) {
+        advanced = true;
+        if (pass > 0 || queue_.size() == 0) {
+          for (const HalfedgeId e : failed) {
+            if (front_.isFront(e)) enqueue(e);
+          }
+          failed.clear();
+          pass = 0;
+        }
+      } else {
+        failed.push_back(h);
+      }
+      continue;
+    }
+    if (failed.empty()) break;
+    if (!advanced && ++pass == kPasses) break;
+    if (advanced) pass = 0;
+    advanced = false;
+    for (const HalfedgeId e : failed) {
+      if (front_.isFront(e)) enqueue(e);
+    }
+    failed.clear();
+  }
+  removeFreeVertices(front_);
+  statistics_.recombined = pairTriangles(front_);
+  FrontResult result{extract(front_), statistics_};
+  result.statistics.quads = 0;
+  for (const Element& element : result.mesh.elements) {
+    ++(cornerCount(element) == 4 ? result.statistics.quads : result.statistics.triangles);
+  }
+  return result;
+}
+
+}  // namespace
+
+Result<FrontResult> advanceFront(const Patch& patch, const CrossField& field, const FrontOptions& options,
+                                 Progress& progress) {
+  return Advance(patch, field, options).run(progress);
+}
+
+FrontResult recombinePatch(const Patch& patch) {
+  const CrossField none;
+  FrontMesh front(patch, none);
+  FrontResult result;
+  result.statistics.recombined = pairTriangles(front);
+  result.mesh = extract(front);
+  for (const Element& element : result.mesh.elements) {
+    ++(cornerCount(element) == 4 ? result.statistics.quads : result.statistics.triangles);
+  }
+  return result;
+}
+
+}  // namespace qmcf

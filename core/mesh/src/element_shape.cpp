@@ -1,0 +1,45 @@
+#include "qmcf/mesh/element_shape.hpp"
+
+#include <algorithm>
+
+namespace qmcf {
+
+double quadShape(const EditMesh& mesh, const std::array<VertexId, 4>& corners) {
+  double worst = 1.0;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const Vec3 p = mesh.position(corners[i]);
+    const Vec3 forward = mesh.position(corners[(i + 1) % 4]) - p;
+    const Vec3 backward = mesh.position(corners[(i + 3) % 4]) - p;
+    const double lengths = norm(forward) * norm(backward);
+    if (!(lengths > 0.0)) return -1.0;
+    worst = std::min(worst, dot(cross(forward, backward), mesh.normal(corners[i])) / lengths);
+  }
+  return worst;
+}
+
+double triangleShape(const EditMesh& mesh, VertexId a, VertexId b, VertexId c) {
+  const Vec3 ab = mesh.position(b) - mesh.position(a);
+  const Vec3 bc = mesh.position(c) - mesh.position(b);
+  const Vec3 ca = mesh.position(a) - mesh.position(c);
+  const double squares = squaredNorm(ab) + squaredNorm(bc) + squaredNorm(ca);
+  if (!(squares > 0.0)) return -1.0;
+  const Vec3 normal = normalized(mesh.normal(a) + mesh.normal(b) + mesh.normal(c));
+  constexpr double kEquilateral = 3.4641016151377544;  // 2 sqrt(3)
+  return kEquilateral * dot(cross(ab, -ca), normal) / squares;
+}
+
+double faceShape(const EditMesh& mesh, FaceId f) {
+  const auto sides = mesh.sides(f);
+  const VertexId a = mesh.origin(sides[0]);
+  const VertexId b = mesh.origin(sides[1]);
+  const VertexId c = mesh.origin(sides[2]);
+  return sides[3].valid() ? quadShape(mesh, {a, b, c, mesh.origin(sides[3])}) : triangleShape(mesh, a, b, c);
+}
+
+double worstShapeAround(const EditMesh& mesh, VertexId v) {
+  double worst = 1.0;
+  mesh.forEachOutgoing(v, [&](HalfedgeId h) { worst = std::min(worst, faceShape(mesh, mesh.face(h))); });
+  return worst;
+}
+
+}  // namespace qmcf
