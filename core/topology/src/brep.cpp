@@ -1,0 +1,325 @@
+#include "qmcf/topology/brep.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "feature_edges.hpp"
+#include "qmcf/base/math.hpp"
+#include "triangle_edges.hpp"
+
+namespace qmcf {
+
+std::string_view edgeKindName(EdgeKind kind) {
+  constexpr std::array<std::string_view, 4> kNames{"nonManifold", "boundary", "sharp", "label"};
+  return kNames[static_cast<std::size_t>(kind)];
+}
+
+namespace detail {
+namespace {
+
+/// A chain or a face that turns by more than this has a corner: 45 degrees, and a little for round-off.
+constexpr double kCornerTurn = math::kPi / 4.0 + 1e-6;
+/// A dangling chain shorter than this part of the bounding box is noise.
+constexpr double kShortChain = 0.03;
+/// Dihedral angles down to this part of the feature angle continue a sharp chain.
+constexpr double kWeakAngle = 0.6;
+
+/// Quads wanted at a corner; the thresholds favour simple corners, as gmsh's do.
+std::int32_t quadsAtCorner(double angle) {
+  const double quarters = 2.0 * angle / math::kPi;
+  if (quarters <= 1.25) return 1;
+  if (quarters <= 2.75) return 2;
+  return quarters <= 3.5 ? 3 : 4;
+}
+
+double diagonalOf(const TriangleMesh& mesh) {
+  Vec3 low = mesh.positions.front();
+  Vec3 high = low;
+  for (const Vec3& p : mesh.positions) {
+    low = {std::fmin(low.x, p.x), std::fmin(low.y, p.y), std::fmin(low.z, p.z)};
+    high = {std::fmax(high.x, p.x), std::fmax(high.y, p.y), std::fmax(high.z, p.z)};
+  }
+  return distance(low, high);
+}
+
+/// Builds the B-rep from the marked edges of the mesh.
+class BrepBuilder {
+ public:
+  BrepBuilder(const TriangleMesh& mesh, const TriangleEdges& edges, const FeatureEdges& features)
+      : mesh_(mesh),
+        edges_(edges),
+        features_(features),
+        fans_(buildFans(edges, features.mark)),
+        around_(edges, features.mark) {}
+
+  Brep build() {
+    measureFans();
+    findCorners();
+    traceEdges();
+    numberVertices();
+    floodFaces();
+    traceLoops();
+    floodBodies();
+    nameFaces();
+    return std::move(brep_);
+  }
+
+ private:
+  /// Role of a mesh vertex.
+  enum class Role : std::uint8_t { none, vertex, artificial };
+
+  [[nodiscard]] const Vec3& at(VertexId v) const { return mesh_.positions[v.index()]; }
+
+  [[nodiscard]] double cornerAngle(HalfedgeId h) const {
+    const Vec3 p = at(edges_.origin(h));
+    const Vec3 u = at(edges_.target(h)) - p;
+    const Vec3 v = at(edges_.origin(Surface::prev(h))) - p;
+    return math::atan2(norm(cross(u, v)), dot(u, v));
+  }
+
+  /// Angle and last half-edge of each fan.
+  void measureFans() {
+    fanAngle_.assign(fans_.first.size(), 0.0);
+    fanLast_.assign(fans_.first.size(), HalfedgeId());
+    for (const HalfedgeId h : edges_.halfedges()) {
+      const auto fan = static_cast<std::size_t>(fans_.ofCorner[h]);
+      fanAngle_[fan] += cornerAngle(h);
+      if (features_.mark[edges_.edge(Surface::prev(h))] != 0) fanLast_[fan] = Surface::prev(h);
+    }
+  }
+
+  void findCorners() {
+    role_.assign(mesh_.positions.size(), Role::none);
+    for (std::size_t v = 0; v < role_.size(); ++v) {
+      const auto around = around_.at(VertexId(v));
+      if (around.empty()) continue;
+      if (around.size() != 2 || !continuesAt(VertexId(v), around[0], around[1])) role_[v] = Role::vertex;
+    }
+    // Fans decide as well: a corner of a face, and a face that touches the vertex otherwise than along both edges.
+    for (std::size_t fan = 0; fan < fans_.first.size(); ++fan) {
+      const HalfedgeId first = fans_.first[fan];
+      const std::size_t v = edges_.origin(first).index();
+      if (around_.at(VertexId(v)).empty()) continue;
+      const bool passes = fans_.open[fan] && edges_.edge(first) != edges_.edge(fanLast_[fan]);
+      if (!passes || std::fabs(fanAngle_[fan] - math::kPi) > kCornerTurn) role_[v] = Role::vertex;
+    }
+  }
+
+  /// Two cutting edges at v are parts of one edge of the B-rep, as far as they alone can tell.
+  [[nodiscard]] bool continuesAt(VertexId v, EdgeId a, EdgeId b) const {
+    const auto kindOf = [&](EdgeId e) {
+      // A crease may fade along a label's border.
+      return features_.is(e, EdgeKind::label) ? EdgeKind::sharp : features_.kind(e);
+    };
+    if (kindOf(a) != kindOf(b)) return false;
+    const Vec3 in = at(v) - at(edges_.otherEnd(a, v));
+    const Vec3 out = at(edges_.otherEnd(b, v)) - at(v);
+    return math::atan2(norm(cross(in, out)), dot(in, out)) <= kCornerTurn;
+  }
+
+  void traceEdges() {
+    edgeOf_.resize(edges_.edgeCount(), kNone);
+    forward_.resize(edges_.edgeCount(), 0);
+    for (std::size_t v = 0; v < role_.size(); ++v) {
+      if (role_[v] == Role::none) continue;
+      for (const EdgeId e : around_.at(VertexId(v))) traceEdge(VertexId(v), e);
+    }
+    // What is left are closed chains without a corner: the first vertex in the mesh's order becomes their end.
+    for (std::size_t v = 0; v < role_.size(); ++v) {
+      for (const EdgeId e : around_.at(VertexId(v))) {
+        if (edgeOf_[e] != kNone) continue;
+        role_[v] = Role::artificial;
+        traceEdge(VertexId(v), e);
+      }
+    }
+  }
+
+  void traceEdge(VertexId v, EdgeId e) {
+    if (edgeOf_[e] != kNone) return;
+    const auto id = static_cast<std::int32_t>(brep_.edges.size());
+    BrepEdge edge;
+    edge.kind = features_.kind(e);
+    edge.points.push_back(v.value);
+    while (edgeOf_[e] == kNone) {
+      edgeOf_[e] = id;
+      forward_[e] = edges_.ends(e)[0] == v ? 1 : 0;
+      edge.kind = std::min(edge.kind, features_.kind(e));
+      const VertexId next = edges_.otherEnd(e, v);
+      edge.length += distance(at(v), at(next));
+      edge.points.push_back(next.value);
+      v = next;
+      if (role_[v.index()] != Role::none) break;
+      const auto around = around_.at(v);
+      e = around[0] == e ? around[1] : around[0];
+    }
+    brep_.edges.push_back(std::move(edge));
+  }
+
+  void numberVertices() {
+    std::vector<std::int32_t> number(role_.size(), kNone);
+    for (std::size_t v = 0; v < role_.size(); ++v) {
+      if (role_[v] == Role::none) continue;
+      number[v] = static_cast<std::int32_t>(brep_.vertices.size());
+      brep_.vertices.push_back({static_cast<std::int32_t>(v), role_[v] == Role::artificial});
+    }
+    for (BrepEdge& edge : brep_.edges) {
+      edge.start = number[static_cast<std::size_t>(edge.points.front())];
+      edge.end = number[static_cast<std::size_t>(edge.points.back())];
+    }
+  }
+
+  /// Labels everything reachable from `root` through edges with cross[e] == 0 (or through all when cross is null).
+  template <class Visit>
+  void flood(TriangleId root, const IdMap<EdgeId, std::uint8_t>* barrier, std::vector<std::int32_t>& label,
+             std::int32_t value, Visit visit) const {
+    std::vector<TriangleId> stack{root};
+    label[root.index()] = value;
+    while (!stack.empty()) {
+      const TriangleId t = stack.back();
+      stack.pop_back();
+      visit(t);
+      for (int c = 0; c < 3; ++c) {
+        const EdgeId e = edges_.edge(Surface::halfedge(t, c));
+        if (barrier != nullptr && (*barrier)[e] != 0) continue;
+        for (const HalfedgeId g : edges_.uses(e)) {
+          const TriangleId u = Surface::triangle(g);
+          if (label[u.index()] != kNone) continue;
+          label[u.index()] = value;
+          stack.push_back(u);
+        }
+      }
+    }
+  }
+
+  void floodFaces() {
+    brep_.triangleFace.assign(mesh_.triangles.size(), kNone);
+    for (const TriangleId root : edges_.triangles()) {
+      if (brep_.triangleFace[root.index()] != kNone) continue;
+      BrepFace face;
+      flood(root, &features_.mark, brep_.triangleFace, static_cast<std::int32_t>(brep_.faces.size()),
+            [&](TriangleId t) { face.triangles.push_back(t.value); });
+      std::sort(face.triangles.begin(), face.triangles.end());
+      for (const std::int32_t t : face.triangles) {
+        const auto& c = mesh_.triangles[static_cast<std::size_t>(t)];
+        const Vec3 p = at(VertexId(c[0]));
+        face.area += 0.5 * norm(cross(at(VertexId(c[1])) - p, at(VertexId(c[2])) - p));
+      }
+      brep_.faces.push_back(std::move(face));
+    }
+  }
+
+  /// Loops start at their smallest half-edge that leaves a B-rep vertex, and come in that order: faceSurface() relies
+  /// on it.
+  void traceLoops() {
+    std::vector<std::uint8_t> visited(edges_.halfedgeCount(), 0);
+    for (const HalfedgeId first : edges_.halfedges()) {
+      if (visited[first.index()] != 0 || features_.mark[edges_.edge(first)] == 0) continue;
+      if (role_[edges_.origin(first).index()] == Role::none) continue;
+      BrepLoop loop;
+      HalfedgeId h = first;
+      do {
+        visited[h.index()] = 1;
+        const VertexId v = edges_.origin(h);
+        if (role_[v.index()] != Role::none) {
+          const EdgeId e = edges_.edge(h);
+          const bool along = (edges_.ends(e)[0] == v) == (forward_[e] != 0);
+          const double angle = fanAngle_[static_cast<std::size_t>(fans_.ofCorner[h])];
+          const std::int32_t quads = role_[v.index()] == Role::artificial ? 2 : quadsAtCorner(angle);
+          loop.coedges.push_back({edgeOf_[e], !along, angle, quads});
+        }
+        h = nextCut(fans_, h);
+      } while (h != first);
+      const std::int32_t face = brep_.triangleFace[Surface::triangle(first).index()];
+      brep_.faces[static_cast<std::size_t>(face)].loops.push_back(std::move(loop));
+    }
+  }
+
+  void floodBodies() {
+    std::vector<std::int32_t> body(mesh_.triangles.size(), kNone);
+    for (const TriangleId root : edges_.triangles()) {
+      if (body[root.index()] != kNone) continue;
+      const auto id = static_cast<std::int32_t>(brep_.bodies.size());
+      BrepBody added;
+      added.closed = true;
+      flood(root, nullptr, body, id, [&](TriangleId t) {
+        for (int c = 0; c < 3; ++c) {
+          if (edges_.uses(edges_.edge(Surface::halfedge(t, c))).size() == 1) added.closed = false;
+        }
+      });
+      brep_.bodies.push_back(std::move(added));
+    }
+    for (std::size_t f = 0; f < brep_.faces.size(); ++f) {
+      BrepFace& face = brep_.faces[f];
+      face.body = body[static_cast<std::size_t>(face.triangles.front())];
+      brep_.bodies[static_cast<std::size_t>(face.body)].faces.push_back(static_cast<std::int32_t>(f));
+    }
+  }
+
+  void nameFaces() {
+    const bool labelled = mesh_.labels.size() == mesh_.triangles.size();
+    for (std::size_t f = 0; f < brep_.faces.size(); ++f) {
+      BrepFace& face = brep_.faces[f];
+      face.name = "face " + std::to_string(f);
+      if (!labelled) continue;
+      const std::int32_t label = mesh_.labels[static_cast<std::size_t>(face.triangles.front())];
+      const bool uniform = std::all_of(face.triangles.begin(), face.triangles.end(), [&](std::int32_t t) {
+        return mesh_.labels[static_cast<std::size_t>(t)] == label;
+      });
+      const bool named = label >= 0 && static_cast<std::size_t>(label) < mesh_.labelNames.size() &&
+                         !mesh_.labelNames[static_cast<std::size_t>(label)].empty();
+      if (uniform && named) face.name = mesh_.labelNames[static_cast<std::size_t>(label)];
+    }
+    numberEqualNames();
+  }
+
+  /// Faces with the same label get numbers, in their order.
+  void numberEqualNames() {
+    std::vector<std::size_t> order(brep_.faces.size());
+    for (std::size_t f = 0; f < order.size(); ++f) order[f] = f;
+    std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+      const int compared = brep_.faces[a].name.compare(brep_.faces[b].name);
+      return compared != 0 ? compared < 0 : a < b;
+    });
+    for (std::size_t i = 0, end = 0; i < order.size(); i = end) {
+      const std::string name = brep_.faces[order[i]].name;
+      for (end = i + 1; end < order.size() && brep_.faces[order[end]].name == name;) ++end;
+      if (end - i == 1) continue;
+      for (std::size_t k = i; k < end; ++k) brep_.faces[order[k]].name = name + " " + std::to_string(k - i);
+    }
+  }
+
+  const TriangleMesh& mesh_;
+  const TriangleEdges& edges_;
+  const FeatureEdges& features_;
+  Fans fans_;
+  VertexEdges around_;
+  std::vector<double> fanAngle_;
+  std::vector<HalfedgeId> fanLast_;
+  std::vector<Role> role_;
+  IdMap<EdgeId, std::int32_t> edgeOf_;
+  IdMap<EdgeId, std::uint8_t>
+      forward_;  ///< The B-rep edge runs from the smaller vertex of the mesh edge to the larger.
+  Brep brep_;
+};
+
+}  // namespace
+}  // namespace detail
+
+Result<Brep> recoverBrep(const TriangleMesh& mesh, const BrepOptions& options, Progress& progress) {
+  if (mesh.triangles.empty()) return Error{ErrorCode::noSurface, "The model has no triangles.", {}};
+  if (!progress.report(Stage::topology, 0.0)) return cancelledError();
+  const detail::TriangleEdges edges(mesh.triangles, mesh.positions.size());
+  if (!progress.report(Stage::topology, 0.3)) return cancelledError();
+  const double featureAngle = options.featureAngle * math::kPi / 180.0;
+  detail::FeatureEdges features = detail::markFeatureEdges(mesh, edges, featureAngle);
+  if (!progress.report(Stage::topology, 0.5)) return cancelledError();
+  const detail::ChainLimits limits{detail::kWeakAngle * featureAngle, detail::kShortChain * detail::diagonalOf(mesh)};
+  detail::cleanFeatureChains(mesh, edges, limits, features);
+  if (!progress.report(Stage::topology, 0.7)) return cancelledError();
+  return detail::BrepBuilder(mesh, edges, features).build();
+}
+
+}  // namespace qmcf

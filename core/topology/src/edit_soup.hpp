@@ -1,0 +1,42 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "repair_state.hpp"
+
+namespace qmcf::detail {
+
+/// Local edits of the soup under repair that never open a crack: all triangles around an edge or a vertex change at
+/// once. Triangles only die or are appended; finish() compacts them.
+class EditSoup {
+ public:
+  explicit EditSoup(RepairState& state);
+
+  [[nodiscard]] bool alive(std::int32_t triangle) const { return alive_[static_cast<std::size_t>(triangle)] != 0; }
+  /// The triangles at v; may contain dead ones and ones that have left v.
+  [[nodiscard]] const std::vector<std::int32_t>& around(std::int32_t v) const {
+    return around_[static_cast<std::size_t>(v)];
+  }
+  /// Living triangles with the edge ab, ascending.
+  [[nodiscard]] std::vector<std::int32_t> trianglesAt(std::int32_t a, std::int32_t b) const;
+
+  /// Moves every triangle from `gone` to `kept`; triangles that had both die.
+  void merge(std::int32_t kept, std::int32_t gone);
+  /// Splits every triangle at the edge ab in two at v; a triangle abv dies: it lies on the split edge.
+  /// Returns the triangles that changed or are new.
+  std::vector<std::int32_t> splitEdge(std::int32_t a, std::int32_t b, std::int32_t v);
+  void kill(std::int32_t triangle) { alive_[static_cast<std::size_t>(triangle)] = 0; }
+  /// Appends a vertex.
+  std::int32_t addVertex(const Vec3& position);
+  /// Removes the dead triangles from the state. The object must not be used afterwards.
+  void finish();
+
+ private:
+  RepairState& state_;
+  std::vector<std::uint8_t> alive_;
+  std::vector<std::vector<std::int32_t>> around_;
+};
+
+}  // namespace qmcf::detail

@@ -1,0 +1,195 @@
+// Repair of triangle soups, in the order of Botsch et al. and Gueziec et al. 2001: exact identification first, then
+// what changes triangles, then orientation. Nothing moves a vertex.
+
+#include "qmcf/topology/repair.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <string>
+
+#include "qmcf/mesh/ids.hpp"
+#include "repair_state.hpp"
+
+namespace qmcf {
+namespace detail {
+
+constexpr std::size_t kMaxElements = 100;
+
+void note(RepairItem& item, std::int64_t id) {
+  ++item.count;
+  if (item.elements.size() < kMaxElements) item.elements.push_back(id);
+}
+
+void addItem(RepairState& state, RepairItem item) {
+  if (item.count == 0) return;
+  const auto same = std::find_if(state.items.begin(), state.items.end(),
+                                 [&](const RepairItem& other) { return other.defect == item.defect; });
+  if (same == state.items.end()) {
+    state.items.push_back(std::move(item));
+    return;
+  }
+  same->count += item.count;
+  for (const std::int64_t id : item.elements) {
+    if (same->elements.size() < kMaxElements) same->elements.push_back(id);
+  }
+}
+
+void keepTriangles(RepairState& state, const std::vector<std::uint8_t>& keep) {
+  TriangleMesh& mesh = state.mesh;
+  std::size_t kept = 0;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    if (keep[t] == 0) continue;
+    mesh.triangles[kept] = mesh.triangles[t];
+    state.origin[kept] = state.origin[t];
+    if (!mesh.labels.empty()) mesh.labels[kept] = mesh.labels[t];
+    ++kept;
+  }
+  mesh.triangles.resize(kept);
+  state.origin.resize(kept);
+  if (!mesh.labels.empty()) mesh.labels.resize(kept);
+}
+
+void removeRepeatedCorners(RepairState& state) {
+  const auto& triangles = state.mesh.triangles;
+  std::vector<std::uint8_t> keep(triangles.size(), 1);
+  RepairItem item{"degenerateTriangles", "removed: two corners are the same point", 0, {}};
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    const auto& c = triangles[t];
+    if (c[0] != c[1] && c[1] != c[2] && c[2] != c[0]) continue;
+    keep[t] = 0;
+    note(item, state.origin[t]);
+  }
+  addItem(state, std::move(item));
+  keepTriangles(state, keep);
+}
+
+void dropUnreferenced(RepairState& state) {
+  TriangleMesh& mesh = state.mesh;
+  std::vector<std::int32_t> renumbered(mesh.positions.size(), kNone);
+  for (const auto& corners : mesh.triangles) {
+    for (const std::int32_t v : corners) renumbered[static_cast<std::size_t>(v)] = 0;
+  }
+  std::int32_t kept = 0;
+  for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+    if (renumbered[v] == kNone) continue;
+    mesh.positions[static_cast<std::size_t>(kept)] = mesh.positions[v];
+    renumbered[v] = kept++;
+  }
+  mesh.positions.resize(static_cast<std::size_t>(kept));
+  for (auto& corners : mesh.triangles) {
+    for (std::int32_t& v : corners) v = renumbered[static_cast<std::size_t>(v)];
+  }
+}
+
+namespace {
+
+Error elementError(ErrorCode code, std::string message, std::vector<std::int64_t> elements) {
+  if (elements.size() > kMaxElements) elements.resize(kMaxElements);
+  return {code, std::move(message), std::move(elements)};
+}
+
+/// Beyond this squares overflow.
+constexpr double kLargestCoordinate = 1e150;
+
+Result<Done> checkInput(const TriangleMesh& input) {
+  constexpr auto kLargest = static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max());
+  if (input.triangles.empty()) return Error{ErrorCode::noSurface, "The model has no triangles.", {}};
+  if (input.positions.size() > kLargest || input.triangles.size() > kLargest / 6) {
+    return Error{ErrorCode::tooLarge, "The model has more triangles than this program can hold.", {}};
+  }
+  std::vector<std::int64_t> bad;
+  for (std::size_t t = 0; t < input.triangles.size(); ++t) {
+    for (const std::int32_t v : input.triangles[t]) {
+      if (v >= 0 && static_cast<std::size_t>(v) < input.positions.size()) continue;
+      bad.push_back(static_cast<std::int64_t>(t));
+      break;
+    }
+  }
+  if (!bad.empty()) {
+    const std::string first = std::to_string(bad.front());
+    return elementError(ErrorCode::indexOutOfRange, "Triangle " + first + " names a vertex that does not exist.",
+                        std::move(bad));
+  }
+  for (std::size_t v = 0; v < input.positions.size(); ++v) {
+    const Vec3& p = input.positions[v];
+    const double largest = std::fmax(std::fabs(p.x), std::fmax(std::fabs(p.y), std::fabs(p.z)));
+    if (isFinite(p) && largest < kLargestCoordinate) continue;
+    bad.push_back(static_cast<std::int64_t>(v));
+  }
+  if (!bad.empty()) {
+    const std::string first = std::to_string(bad.front());
+    return elementError(ErrorCode::nonFiniteCoordinate,
+                        "Vertex " + first + " has a coordinate that is not a number or too large to compute with.",
+                        std::move(bad));
+  }
+  return Done{};
+}
+
+void measure(RepairState& state) {
+  const TriangleMesh& mesh = state.mesh;
+  Vec3 low = mesh.positions[static_cast<std::size_t>(mesh.triangles.front()[0])];
+  Vec3 high = low;
+  for (const auto& corners : mesh.triangles) {
+    for (const std::int32_t v : corners) {
+      const Vec3& p = mesh.positions[static_cast<std::size_t>(v)];
+      low = {std::fmin(low.x, p.x), std::fmin(low.y, p.y), std::fmin(low.z, p.z)};
+      high = {std::fmax(high.x, p.x), std::fmax(high.y, p.y), std::fmax(high.z, p.z)};
+    }
+  }
+  const double largest =
+      std::fmax(std::fmax(std::fmax(-low.x, high.x), std::fmax(-low.y, high.y)), std::fmax(-low.z, high.z));
+  state.diagonal = distance(low, high);
+  state.precision = std::fmax(1e-9 * state.diagonal, 4.0 * std::numeric_limits<double>::epsilon() * largest);
+}
+
+/// The passes in their order; \pre the input was checked.
+void runPass(RepairState& state, int pass) {
+  switch (pass) {
+    case 0:
+      return weldExact(state);
+    case 1:
+      return removeRepeatedCorners(state);
+    case 2:
+      return removeDuplicates(state);
+    case 3:
+      return removeZeroArea(state);
+    // Joining the neighbours of zero-area triangles may put two triangles on the same vertices.
+    case 4:
+      return state.modify ? removeDuplicates(state) : void();
+    case 5:
+      return orient(state);
+    case 6:
+      return splitLoneEdges(state);
+    default:
+      return dropUnreferenced(state);
+  }
+}
+constexpr int kPasses = 8;
+
+}  // namespace
+}  // namespace detail
+
+Result<RepairedMesh> repair(const TriangleMesh& input, const RepairOptions& options, Progress& progress) {
+  const Result<Done> checked = detail::checkInput(input);
+  if (!checked) return checked.error();
+  detail::RepairState state;
+  state.mesh = input;
+  if (state.mesh.labels.size() != state.mesh.triangles.size()) state.mesh.labels.clear();
+  state.origin.resize(input.triangles.size());
+  std::iota(state.origin.begin(), state.origin.end(), std::int64_t{0});
+  state.modify = options.modify;
+  detail::measure(state);
+
+  for (int pass = 0; pass < detail::kPasses; ++pass) {
+    if (!progress.report(Stage::repair, static_cast<double>(pass) / detail::kPasses)) return cancelledError();
+    detail::runPass(state, pass);
+    if (state.mesh.triangles.empty()) {
+      return Error{ErrorCode::noSurface, "None of the model's triangles has an area.", {}};
+    }
+  }
+  return RepairedMesh{std::move(state.mesh), std::move(state.origin), std::move(state.items)};
+}
+
+}  // namespace qmcf
