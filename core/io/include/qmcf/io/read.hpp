@@ -13,13 +13,15 @@
 namespace qmcf {
 
 enum class InputFormat : std::uint8_t { obj, stlAscii, stlBinary, ply };
+/// The format as a person calls it, e.g. "binary STL".
 std::string_view inputFormatName(InputFormat format);
 
 /// A model as read: polygons are triangulated, nothing is welded or repaired.
 struct ReadModel {
   TriangleMesh mesh;
   InputFormat format = InputFormat::obj;
-  std::int64_t polygons = 0;  ///< Faces of the file, before triangulation.
+  std::int64_t polygons = 0;      ///< Faces of the file, before triangulation.
+  std::int64_t skippedFaces = 0;  ///< Faces of the file that were left out because they have fewer than three corners.
 };
 
 /// Reads a model from memory; the format is found from the content. Allocations are bounded by bytes.size().
