@@ -5,24 +5,12 @@
 #include <cmath>
 
 #include "qmcf/mesh/element_shape.hpp"
+#include "qmcf/mesh/loop_fillings.hpp"
 
 namespace qmcf {
 namespace {
 
 constexpr std::size_t kMaxRegion = 400;
-
-/// The quads that fill a loop, as indices into its vertices; index `length` is a new vertex in the middle.
-using Filling = std::vector<std::array<int, 4>>;
-
-std::vector<Filling> fillingsOf(int length) {
-  if (length == 4) return {{{0, 1, 2, 3}}};
-  std::vector<Filling> ways;
-  for (int s = 0; s < 3; ++s) ways.push_back({{s, s + 1, s + 2, s + 3}, {s + 3, (s + 4) % 6, (s + 5) % 6, s}});
-  for (int s = 0; s < 2; ++s) {
-    ways.push_back({{s, s + 1, s + 2, 6}, {s + 2, s + 3, s + 4, 6}, {s + 4, (s + 5) % 6, s, 6}});
-  }
-  return ways;
-}
 
 double scaledCorner(const Vec3& before, const Vec3& at, const Vec3& after, const Vec3& normal) {
   const Vec3 forward = after - at;
@@ -80,7 +68,7 @@ std::optional<FaceId> formElement(FrontMesh& front, const std::vector<VertexId>&
 
 std::vector<FaceId> closeLoop(FrontMesh& front, HalfedgeId h, int length, double least) {
   EditMesh& mesh = front.mesh();
-  if (length != 4 && length != 6) return {};
+  if (loopFillings(length).empty()) return {};
   std::vector<HalfedgeId> loop;
   std::vector<VertexId> vertices;
   std::vector<int> elements;
@@ -106,14 +94,13 @@ std::vector<FaceId> closeLoop(FrontMesh& front, HalfedgeId h, int length, double
   const auto normalOfIndex = [&](int i) {
     return i == length ? middle.normal : mesh.normal(vertices[static_cast<std::size_t>(i)]);
   };
-  const Filling* best = nullptr;
+  const LoopFilling* best = nullptr;
   double bestCost = 0.0;
-  const std::vector<Filling> ways = fillingsOf(length);
-  for (const Filling& way : ways) {
+  for (const LoopFilling& way : loopFillings(length)) {
     double worst = 1.0;
     std::vector<int> excess = elements;
-    excess.push_back(-3);  // a middle vertex gets three quads; one short of regular
-    for (const auto& quad : way) {
+    excess.push_back(way.hasMiddle ? -4 : 0);
+    for (const auto& quad : way.cells) {
       for (std::size_t i = 0; i < 4; ++i) {
         ++excess[static_cast<std::size_t>(quad[i])];
         worst = std::min(worst, scaledCorner(positionOfIndex(quad[(i + 3) % 4]), positionOfIndex(quad[i]),
@@ -121,16 +108,14 @@ std::vector<FaceId> closeLoop(FrontMesh& front, HalfedgeId h, int length, double
       }
     }
     double cost = 1.0 - worst;
-    for (std::size_t i = 0; i < vertices.size(); ++i) cost += 0.5 * excess[i] * excess[i];
-    if (way.size() == 3) cost += 0.5;
+    for (const int e : excess) cost += 0.5 * e * e;
     if (worst >= least && (best == nullptr || cost < bestCost)) {
       best = &way;
       bestCost = cost;
     }
   }
   if (best == nullptr) return {};
-
-  return mesh.fill(loop, *region, *best, best->size() == 3 ? &middle : nullptr);
+  return mesh.fill(loop, *region, best->cells, best->hasMiddle ? &middle : nullptr);
 }
 
 }  // namespace qmcf

@@ -16,7 +16,7 @@ std::optional<std::vector<FaceId>> enclosedRegion(const FrontMesh& front, const 
 /// Refused (and nothing is changed) when quality would be below `least` or enclosedRegion() has no answer.
 std::optional<FaceId> formElement(FrontMesh& front, const std::vector<VertexId>& corners, double least);
 
-/// Fills a small front loop of 4 or 6 edges with quads (D6 d): the best of the ways there are, by shape and by how regular
+/// Fills a small front loop of 4, 6, 8 or 10 edges with quads (D6 d): the best of the ways there are, by shape and by how regular
 /// its vertices become. Returns the new quads, none if no way is good enough.
 std::vector<FaceId> closeLoop(FrontMesh& front, HalfedgeId h, int length, double least);
 

@@ -267,6 +267,29 @@ std::vector<FaceId> EditMesh::fill(const std::vector<HalfedgeId>& boundary, cons
   return faces;
 }
 
+HalfedgeId EditMesh::cut(HalfedgeId from, HalfedgeId to) {
+  const FaceId kept = face(from);
+  const HalfedgeId beforeFrom = prev(from);
+  const HalfedgeId beforeTo = prev(to);
+  const HalfedgeId h = addEdge(origin(from), origin(to));
+  const HalfedgeId t = twin(h);
+  const FaceId added = addFace(kind(kept));
+  // from ... beforeTo, t stay in the face; to ... beforeFrom, h are the new one.
+  link(beforeTo, t);
+  link(t, from);
+  link(beforeFrom, h);
+  link(h, to);
+  set(kFace, t.index(), kept.value);
+  set(kFaceHalfedge, kept.index(), t.value);
+  set(kFaceHalfedge, added.index(), h.value);
+  HalfedgeId e = h;
+  do {
+    set(kFace, e.index(), added.value);
+    e = next(e);
+  } while (e != h);
+  return h;
+}
+
 bool EditMesh::canCollapse(HalfedgeId h) const {
   const HalfedgeId t = twin(h);
   if (!t.valid() || cornerCount(face(h)) != 3 || cornerCount(face(t)) != 3) return false;

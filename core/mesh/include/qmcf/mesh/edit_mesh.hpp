@@ -104,6 +104,9 @@ class EditMesh {
   /// boundary's origins, counter-clockwise; the index boundary.size() is a new vertex `middle` (null if not used).
   std::vector<FaceId> fill(const std::vector<HalfedgeId>& boundary, const std::vector<FaceId>& region,
                            const std::vector<std::array<int, 4>>& cells, const Vertex* middle);
+  /// Cuts a face in two by an edge between the origins of two of its half-edges that are not neighbours. Returns the new
+  /// half-edge from origin(from) to origin(to); its face is new.
+  HalfedgeId cut(HalfedgeId from, HalfedgeId to);
   /// Contracts h by moving its target into its origin; the target and the triangles beside h disappear.
   /// \pre canCollapse(h)
   void collapse(HalfedgeId h);

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstdint>
+
+#include "qmcf/base/progress.hpp"
+#include "qmcf/base/result.hpp"
+#include "qmcf/mesh/face_mesh.hpp"
+#include "qmcf/mesh/patch.hpp"
+#include "qmcf/spatial/triangle_bvh.hpp"
+
+namespace qmcf {
+
+/// Improvement of the mesh of one face.
+struct CleanupOptions {
+  bool topology = true;             ///< Change connectivity where that makes vertices more regular.
+  std::int32_t rounds = 6;          ///< Rounds of topological operators and relaxation, 0 to 50.
+  std::int32_t sweeps = 25;         ///< Relaxation sweeps over all vertices at the end, 0 to 200.
+  double leastShape = 0.2;          ///< No operator may leave an element with a smaller scaled Jacobian, in (0, 1).
+};
+
+/// What was done.
+struct CleanupStatistics {
+  std::int64_t doublets = 0;        ///< Interior vertices with two elements that were removed.
+  std::int64_t refills = 0;         ///< Small cavities that were filled anew.
+  std::int64_t collapses = 0;       ///< Quads that were closed along a diagonal.
+  std::int64_t pairs = 0;           ///< Pairs of triangles that became quads.
+};
+
+struct CleanupResult {
+  FaceMesh mesh;
+  CleanupStatistics statistics;
+  double worstShape = 1.0;          ///< Smallest scaled Jacobian or triangle shape; > 0 in a valid mesh.
+};
+
+/// Makes a quad-dominant mesh of one face more regular and its elements squarer. Boundary vertices keep their places,
+/// all others stay on the face, given by `target`, the tree over the face's input triangles (D9, C7 of
+/// docs/algorithm.md). Every change is undone that makes the mesh worse. Errors: cancelled.
+Result<CleanupResult> cleanUp(const FaceMesh& mesh, const Patch& patch, const TriangleBvh& target,
+                              const CleanupOptions& options, Progress& progress);
+
+}  // namespace qmcf

@@ -1,0 +1,77 @@
+#include "qmcf/cleanup/cleanup.hpp"
+
+#include <algorithm>
+
+#include "operators.hpp"
+#include "qmcf/mesh/edit_mesh.hpp"
+#include "qmcf/mesh/element_shape.hpp"
+#include "relaxation.hpp"
+
+namespace qmcf {
+namespace {
+
+/// Moves smaller than this, in element sizes, end the relaxation.
+constexpr double kStill = 1e-3;
+
+FaceMesh extract(const EditMesh& mesh, const FaceMesh& before) {
+  FaceMesh result;
+  IdMap<VertexId, std::int32_t> index(mesh.vertexCapacity(), kNone);
+  for (std::size_t i = 0; i < mesh.vertexCapacity(); ++i) {
+    const VertexId v(i);
+    if (!mesh.alive(v)) continue;
+    index[v] = static_cast<std::int32_t>(result.positions.size());
+    result.positions.push_back(mesh.position(v));
+    result.normals.push_back(mesh.normal(v));
+    result.locations.push_back(mesh.vertex(v).location);
+    result.patchVertex.push_back(i < before.patchVertex.size() ? before.patchVertex[i] : kNone);
+  }
+  for (std::size_t i = 0; i < mesh.faceCapacity(); ++i) {
+    const FaceId f(i);
+    if (mesh.kind(f) == FaceKind::removed) continue;
+    Element element{kNone, kNone, kNone, kNone};
+    const auto sides = mesh.sides(f);
+    for (std::size_t c = 0; c < 4; ++c) {
+      if (sides[c].valid()) element[c] = index[mesh.origin(sides[c])];
+    }
+    result.elements.push_back(element);
+  }
+  return result;
+}
+
+}  // namespace
+
+Result<CleanupResult> cleanUp(const FaceMesh& mesh, const Patch& patch, const TriangleBvh& target,
+                              const CleanupOptions& options, Progress& progress) {
+  EditMesh work(mesh);
+  const RelaxationTarget where{patch, target};
+  TopologicalCleanup topology(work, patch, where, options);
+  const auto allVertices = [&] {
+    std::vector<VertexId> vertices;
+    for (std::size_t i = 0; i < work.vertexCapacity(); ++i) {
+      if (work.alive(VertexId(i))) vertices.emplace_back(i);
+    }
+    return vertices;
+  };
+  constexpr double kEnough = 0.6;
+  for (std::int32_t round = 0; options.topology && round < options.rounds; ++round) {
+    if (!progress.report(Stage::cleanup, 0.7 * round / options.rounds)) return cancelledError();
+    const auto vertices = allVertices();
+    for (int sweep = 0; sweep < 3; ++sweep) relax(work, vertices, where, kEnough);
+    work.commit();
+    if (topology.pass() == 0) break;
+  }
+  const auto vertices = allVertices();
+  for (std::int32_t sweep = 0; sweep < options.sweeps; ++sweep) {
+    if (!progress.report(Stage::cleanup, 0.7 + 0.3 * sweep / options.sweeps)) return cancelledError();
+    const double largest = relax(work, vertices, where, kEnough);
+    work.commit();
+    if (largest < kStill) break;
+  }
+  CleanupResult result{extract(work, mesh), topology.statistics(), 1.0};
+  for (std::size_t i = 0; i < work.faceCapacity(); ++i) {
+    if (work.kind(FaceId(i)) != FaceKind::removed) result.worstShape = std::min(result.worstShape, faceShape(work, FaceId(i)));
+  }
+  return result;
+}
+
+}  // namespace qmcf

@@ -1,0 +1,259 @@
+#include "operators.hpp"
+
+#include <algorithm>
+#include <optional>
+
+#include "qmcf/mesh/element_shape.hpp"
+#include "qmcf/mesh/loop_fillings.hpp"
+
+namespace qmcf {
+namespace {
+
+constexpr int kSettleSweeps = 4;
+
+std::vector<VertexId> withNeighbours(const EditMesh& mesh, const std::vector<VertexId>& vertices) {
+  std::vector<VertexId> all = vertices;
+  for (const VertexId v : vertices) {
+    mesh.forEachOutgoing(v, [&](HalfedgeId h) {
+      const auto sides = mesh.sides(mesh.face(h));
+      for (const HalfedgeId side : sides) {
+        if (side.valid()) all.push_back(mesh.origin(side));
+      }
+    });
+  }
+  std::sort(all.begin(), all.end());
+  all.erase(std::unique(all.begin(), all.end()), all.end());
+  return all;
+}
+
+double worstAround(const EditMesh& mesh, const std::vector<VertexId>& vertices) {
+  double worst = 1.0;
+  for (const VertexId v : vertices) worst = std::min(worst, worstShapeAround(mesh, v));
+  return worst;
+}
+
+bool contains(const std::vector<FaceId>& faces, FaceId f) { return std::find(faces.begin(), faces.end(), f) != faces.end(); }
+
+/// The boundary of a set of faces as one loop without repeated vertices, or nothing.
+std::optional<std::vector<HalfedgeId>> boundaryLoop(const EditMesh& mesh, const std::vector<FaceId>& faces) {
+  const auto isBorder = [&](HalfedgeId h) {
+    const HalfedgeId t = mesh.twin(h);
+    return !t.valid() || !contains(faces, mesh.face(t));
+  };
+  std::size_t borders = 0;
+  HalfedgeId first;
+  for (const FaceId f : faces) {
+    for (const HalfedgeId h : mesh.sides(f)) {
+      if (!h.valid() || !isBorder(h)) continue;
+      ++borders;
+      if (!first.valid()) first = h;
+    }
+  }
+  if (!first.valid()) return std::nullopt;
+  std::vector<HalfedgeId> loop;
+  std::vector<VertexId> vertices;
+  HalfedgeId h = first;
+  do {
+    loop.push_back(h);
+    const VertexId v = mesh.origin(h);
+    if (std::find(vertices.begin(), vertices.end(), v) != vertices.end()) return std::nullopt;
+    vertices.push_back(v);
+    h = mesh.next(h);
+    while (!isBorder(h)) h = mesh.next(mesh.twin(h));
+  } while (h != first);
+  if (loop.size() != borders) return std::nullopt;
+  return loop;
+}
+
+std::vector<VertexId> cornersOf(const EditMesh& mesh, const std::vector<FaceId>& faces) {
+  std::vector<VertexId> corners;
+  for (const FaceId f : faces) {
+    for (const HalfedgeId h : mesh.sides(f)) {
+      if (h.valid()) corners.push_back(mesh.origin(h));
+    }
+  }
+  std::sort(corners.begin(), corners.end());
+  corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
+  return corners;
+}
+
+bool allQuads(const EditMesh& mesh, const std::vector<FaceId>& faces) {
+  return std::all_of(faces.begin(), faces.end(), [&](FaceId f) { return mesh.cornerCount(f) == 4; });
+}
+
+}  // namespace
+
+TopologicalCleanup::TopologicalCleanup(EditMesh& mesh, const Patch& patch, const RelaxationTarget& target,
+                                       const CleanupOptions& options)
+    : mesh_(mesh), patch_(patch), target_(target), options_(options) {}
+
+int TopologicalCleanup::excess(VertexId v) const {
+  int elements = 0;
+  mesh_.forEachOutgoing(v, [&](HalfedgeId) { ++elements; });
+  return elements - (mesh_.isBoundary(v) ? patch_.cornerQuads[v] : 4);
+}
+
+bool TopologicalCleanup::settle(const std::vector<VertexId>& vertices, double worstBefore, std::size_t mark) {
+  const std::vector<VertexId> moving = withNeighbours(mesh_, vertices);
+  for (int sweep = 0; sweep < kSettleSweeps; ++sweep) relax(mesh_, moving, target_, options_.leastShape);
+  if (worstAround(mesh_, vertices) >= std::min(options_.leastShape, worstBefore)) {
+    mesh_.commit();
+    return true;
+  }
+  mesh_.rollback(mark);
+  return false;
+}
+
+bool TopologicalCleanup::removeDoublet(VertexId v) {
+  if (!mesh_.alive(v) || mesh_.isBoundary(v)) return false;
+  std::vector<FaceId> cavity;
+  mesh_.forEachOutgoing(v, [&](HalfedgeId h) { cavity.push_back(mesh_.face(h)); });
+  if (cavity.size() != 2) return false;
+  const auto loop = boundaryLoop(mesh_, cavity);
+  if (!loop || loop->size() < 3 || loop->size() > 4) return false;
+  std::vector<VertexId> vertices;
+  for (const HalfedgeId h : *loop) vertices.push_back(mesh_.origin(h));
+  const std::size_t mark = mesh_.mark();
+  const double before = worstAround(mesh_, vertices);
+  mesh_.fill(*loop, cavity, FaceKind::element);
+  if (!settle(vertices, before, mark)) return false;
+  ++statistics_.doublets;
+  return true;
+}
+
+bool TopologicalCleanup::pairTriangles(HalfedgeId h) {
+  if (!mesh_.alive(h)) return false;
+  const HalfedgeId t = mesh_.twin(h);
+  if (!t.valid() || mesh_.cornerCount(mesh_.face(h)) != 3 || mesh_.cornerCount(mesh_.face(t)) != 3) return false;
+  const std::vector<HalfedgeId> loop{mesh_.next(h), mesh_.prev(h), mesh_.next(t), mesh_.prev(t)};
+  std::vector<VertexId> vertices;
+  for (const HalfedgeId side : loop) vertices.push_back(mesh_.origin(side));
+  const std::size_t mark = mesh_.mark();
+  const double before = worstAround(mesh_, vertices);
+  mesh_.fill(loop, {mesh_.face(h), mesh_.face(t)}, FaceKind::element);
+  if (!settle(vertices, before, mark)) return false;
+  ++statistics_.pairs;
+  return true;
+}
+
+bool TopologicalCleanup::collapseDiagonal(HalfedgeId corner) {
+  if (!mesh_.alive(corner) || mesh_.cornerCount(mesh_.face(corner)) != 4) return false;
+  // The quad (a, b, c, d) closes by c moving into a.
+  const HalfedgeId opposite = mesh_.next(mesh_.next(corner));
+  const VertexId a = mesh_.origin(corner);
+  const VertexId b = mesh_.origin(mesh_.next(corner));
+  const VertexId c = mesh_.origin(opposite);
+  const VertexId d = mesh_.origin(mesh_.prev(corner));
+  if (mesh_.isBoundary(c)) return false;
+  const auto square = [](int x) { return x * x; };
+  const int ea = excess(a);
+  const int eb = excess(b);
+  const int ec = excess(c);
+  const int ed = excess(d);
+  // a keeps its elements and gains those of c, less the two halves of the quad; a boundary vertex wants its own number.
+  const int merged = ea + (ec + 4) - 2;
+  const int before = square(ea) + square(eb) + square(ec) + square(ed);
+  if (square(merged) + square(eb - 1) + square(ed - 1) >= before) return false;
+  std::vector<VertexId> vertices;
+  mesh_.forEachOutgoing(c, [&](HalfedgeId h) { vertices.push_back(mesh_.target(h)); });
+  vertices.push_back(a);
+  const double worstBefore = worstAround(mesh_, vertices);
+  const std::size_t mark = mesh_.mark();
+  const HalfedgeId diagonal = mesh_.cut(corner, opposite);
+  if (!mesh_.canCollapse(diagonal)) {
+    mesh_.rollback(mark);
+    return false;
+  }
+  const Vec3 middle = (mesh_.position(a) + mesh_.position(c)) * 0.5;
+  mesh_.collapse(diagonal);
+  if (!mesh_.isBoundary(a)) mesh_.setVertex(a, projectVertex(target_, mesh_.vertex(a), middle));
+  if (!settle(vertices, worstBefore, mark)) return false;
+  ++statistics_.collapses;
+  return true;
+}
+
+bool TopologicalCleanup::refill(const std::vector<FaceId>& cavity) {
+  if (!allQuads(mesh_, cavity)) return false;
+  const auto loop = boundaryLoop(mesh_, cavity);
+  if (!loop) return false;
+  const auto length = static_cast<int>(loop->size());
+  const std::vector<LoopFilling>& ways = loopFillings(length);
+  if (ways.empty()) return false;
+  std::vector<VertexId> vertices;
+  std::vector<int> outside;
+  int energyBefore = 0;
+  for (const VertexId v : cornersOf(mesh_, cavity)) energyBefore += excess(v) * excess(v);
+  for (const HalfedgeId h : *loop) {
+    const VertexId v = mesh_.origin(h);
+    vertices.push_back(v);
+    int inside = 0;
+    mesh_.forEachOutgoing(v, [&](HalfedgeId out) { inside += contains(cavity, mesh_.face(out)) ? 1 : 0; });
+    outside.push_back(excess(v) - inside);
+  }
+  std::vector<std::pair<int, std::size_t>> better;
+  for (std::size_t w = 0; w < ways.size(); ++w) {
+    std::vector<int> count = outside;
+    count.push_back(ways[w].hasMiddle ? -4 : 0);
+    for (const auto& cell : ways[w].cells) {
+      for (const int i : cell) ++count[static_cast<std::size_t>(i)];
+    }
+    int energy = 0;
+    for (const int e : count) energy += e * e;
+    if (energy < energyBefore) better.emplace_back(energy, w);
+  }
+  std::sort(better.begin(), better.end());
+  const double before = worstAround(mesh_, vertices);
+  Vec3 centre;
+  for (const VertexId v : vertices) centre += mesh_.position(v) / length;
+  constexpr std::size_t kMaxTries = 4;
+  for (std::size_t i = 0; i < std::min(better.size(), kMaxTries); ++i) {
+    const LoopFilling& way = ways[better[i].second];
+    const std::size_t mark = mesh_.mark();
+    const EditMesh::Vertex middle = projectVertex(target_, mesh_.vertex(vertices[0]), centre);
+    mesh_.fill(*loop, cavity, way.cells, way.hasMiddle ? &middle : nullptr);
+    if (settle(vertices, before, mark)) {
+      ++statistics_.refills;
+      return true;
+    }
+  }
+  return false;
+}
+
+bool TopologicalCleanup::refillAround(VertexId v) {
+  if (!mesh_.alive(v) || excess(v) == 0) return false;
+  // The fan of an inner vertex, then each pair and triple of neighbouring quads of the vertex.
+  std::vector<FaceId> fan;
+  mesh_.forEachOutgoing(v, [&](HalfedgeId h) { fan.push_back(mesh_.face(h)); });
+  const bool closed = !mesh_.isBoundary(v);
+  if (closed && fan.size() <= 5 && refill(fan)) return true;
+  for (std::size_t width : {std::size_t{2}, std::size_t{3}}) {
+    if (fan.size() < width) break;
+    for (std::size_t i = 0; i < fan.size(); ++i) {
+      if (!closed && i + width > fan.size()) break;
+      std::vector<FaceId> cavity;
+      for (std::size_t k = 0; k < width; ++k) cavity.push_back(fan[(i + k) % fan.size()]);
+      if (refill(cavity)) return true;
+    }
+  }
+  // Each quad of the vertex with its neighbours on the far side.
+  for (const FaceId f : fan) {
+    for (const HalfedgeId h : mesh_.sides(f)) {
+      if (!h.valid() || !mesh_.twin(h).valid()) continue;
+      const FaceId other = mesh_.face(mesh_.twin(h));
+      if (contains(fan, other)) continue;
+      if (refill({f, other})) return true;
+    }
+  }
+  return false;
+}
+
+std::int64_t TopologicalCleanup::pass() {
+  std::int64_t changes = 0;
+  for (std::size_t i = 0; i < mesh_.vertexCapacity(); ++i) changes += removeDoublet(VertexId(i)) ? 1 : 0;
+  for (std::size_t i = 0; i < mesh_.halfedgeCapacity(); ++i) changes += pairTriangles(HalfedgeId(i)) ? 1 : 0;
+  for (std::size_t i = 0; i < mesh_.halfedgeCapacity(); ++i) changes += collapseDiagonal(HalfedgeId(i)) ? 1 : 0;
+  for (std::size_t i = 0; i < mesh_.vertexCapacity(); ++i) changes += refillAround(VertexId(i)) ? 1 : 0;
+  return changes;
+}
+
+}  // namespace qmcf

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "qmcf/cleanup/cleanup.hpp"
+#include "qmcf/mesh/edit_mesh.hpp"
+#include "relaxation.hpp"
+
+namespace qmcf {
+
+/// Topological clean-up of one face (D9 of docs/algorithm.md). An operator is applied where it lowers the irregularity
+/// energy, the sum of (elements - wanted)^2 over the vertices, and after relaxation nearby no element is worse than
+/// options.leastShape, or than the worst before if that was less.
+class TopologicalCleanup {
+ public:
+  TopologicalCleanup(EditMesh& mesh, const Patch& patch, const RelaxationTarget& target, const CleanupOptions& options);
+
+  /// One pass of all operators over the mesh. Returns the number of changes.
+  std::int64_t pass();
+  [[nodiscard]] const CleanupStatistics& statistics() const { return statistics_; }
+
+ private:
+  /// Elements around a vertex, less the number that makes it regular.
+  [[nodiscard]] int excess(VertexId v) const;
+  bool removeDoublet(VertexId v);
+  bool pairTriangles(HalfedgeId h);
+  bool collapseDiagonal(HalfedgeId corner);
+  bool refill(const std::vector<FaceId>& cavity);
+  bool refillAround(VertexId v);
+  /// Relaxes around the vertices and decides whether the change since mark may stay.
+  bool settle(const std::vector<VertexId>& vertices, double worstBefore, std::size_t mark);
+
+  EditMesh& mesh_;
+  const Patch& patch_;
+  const RelaxationTarget& target_;
+  const CleanupOptions& options_;
+  CleanupStatistics statistics_;
+};
+
+}  // namespace qmcf

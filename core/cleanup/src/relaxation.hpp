@@ -1,0 +1,26 @@
+#pragma once
+
+#include <vector>
+
+#include "qmcf/mesh/edit_mesh.hpp"
+#include "qmcf/mesh/patch.hpp"
+#include "qmcf/spatial/triangle_bvh.hpp"
+
+namespace qmcf {
+
+/// Where vertices may move to.
+struct RelaxationTarget {
+  const Patch& patch;       ///< Sizes and normals.
+  const TriangleBvh& face;  ///< The face's input triangles.
+};
+
+/// The place on the face nearest to a position, with normal and location.
+EditMesh::Vertex projectVertex(const RelaxationTarget& target, const EditMesh::Vertex& from, const Vec3& position);
+
+/// One Gauss-Seidel sweep over the given vertices: each moves to the mean of the places that the best-fitting squares
+/// (equilateral triangles) of its elements give it, is projected, and stays where it was if an element around it would
+/// become worse than both before and `enough`. Boundary vertices don't move. Returns the largest move relative to the
+/// element size.
+double relax(EditMesh& mesh, const std::vector<VertexId>& vertices, const RelaxationTarget& target, double enough);
+
+}  // namespace qmcf
