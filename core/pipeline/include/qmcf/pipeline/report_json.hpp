@@ -8,9 +8,10 @@ namespace qmcf {
 
 /// Reports as JSON text (UTF-8), with the field names of the C++ structs. Non-finite numbers become null.
 std::string toJson(const QualityReport& report);
-/// repair items, counts of bodies, faces, loops, edges by kind, vertices, and each face and edge.
+/// {repair, counts, bodies, faces, edges, vertices}: repair items; counts of everything, edges also by kind; each element
+/// of the B-rep, a face with its loops.
 std::string toJson(const InspectResult& result);
-/// size, quality, faces, repair items, singularities.
+/// {size, quality, faces, repair, fieldSingularities}.
 std::string toJson(const MeshResult& result);
 
 }  // namespace qmcf
