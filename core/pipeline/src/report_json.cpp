@@ -52,19 +52,14 @@ Json toValue(const BrepLoop& loop) {
   return coedges;
 }
 
-template <class T>
-Json toArray(const std::vector<T>& values) {
-  Json array = Json::array();
-  for (const T& value : values) array.push_back(toValue(value));
-  return array;
-}
-
 Json toValue(const BrepFace& face) {
+  Json loops = Json::array();
+  for (const BrepLoop& loop : face.loops) loops.push_back(toValue(loop));
   return {{"name", face.name},
           {"body", face.body},
           {"triangles", face.triangles.size()},
           {"area", face.area},
-          {"loops", toArray(face.loops)}};
+          {"loops", loops}};
 }
 
 Json toValue(const BrepEdge& edge) {
@@ -76,6 +71,13 @@ Json toValue(const BrepEdge& edge) {
 }
 
 Json toValue(const BrepVertex& vertex) { return {{"point", vertex.point}, {"artificial", vertex.artificial}}; }
+
+template <class T>
+Json toArray(const std::vector<T>& values) {
+  Json array = Json::array();
+  for (const T& value : values) array.push_back(toValue(value));
+  return array;
+}
 
 Json counts(const InspectResult& result) {
   const Brep& brep = result.brep;
