@@ -1,0 +1,240 @@
+import { createMesher, QmcfError, type InspectResult, type Mesher, type OutputFormat, type ProgressReport } from 'qmcf';
+import * as format from './format.js';
+import type { Sample } from './samples.js';
+import { overallFraction, stageLabel } from './stages.js';
+import { linkSizes, optionsKey, optionsOf, type Running, type Settings, type State, type Store, type View } from './state.js';
+
+/** Everything that is done with the core: opens parts, computes fields and meshes, one at a time. */
+export class Session {
+  private readonly mesher: Promise<Mesher> = createMesher();
+  private abort: AbortController | undefined;
+  private upkeep: ReturnType<typeof setTimeout> | undefined;
+
+  constructor(private readonly store: Store) {
+    this.mesher.catch((error: unknown) => this.fail('The mesher could not be started', error));
+    store.subscribe((state, before) => {
+      if (state !== before && needsUpkeep(state)) {
+        this.scheduleUpkeep();
+      }
+    });
+  }
+
+  async openFile(file: File): Promise<void> {
+    await this.open(file.name, () => file.arrayBuffer());
+  }
+
+  async openSample(sample: Sample): Promise<void> {
+    await this.open(sample.file, async () => {
+      const response = await fetch(sample.url);
+      if (!response.ok) {
+        throw new Error(`The sample could not be loaded (status ${response.status}).`);
+      }
+      return response.arrayBuffer();
+    });
+  }
+
+  /** Changes what the controls say; size and count stay linked. */
+  changeSettings(change: Partial<Settings>): void {
+    const { settings, model } = this.store.state;
+    const changed = { ...settings, ...change };
+    this.store.update({ settings: model ? linkSizes(changed, model.area) : changed });
+  }
+
+  async generate(): Promise<void> {
+    const { model, settings } = this.store.state;
+    if (!model) {
+      return;
+    }
+    await this.run('mesh', 'Generating the mesh', async (mesher, control) => {
+      const start = performance.now();
+      const result = await mesher.mesh(model.bytes, optionsOf(settings), control);
+      const seconds = (performance.now() - start) / 1000;
+      const { quads, triangles } = result.report.quality;
+      const parts = [format.counted(quads, 'quad'), ...(triangles > 0 ? [format.counted(triangles, 'triangle')] : [])];
+      this.store.update({
+        mesh: { result, optionsKey: optionsKey(settings), seconds },
+        view: 'mesh',
+        status: `${parts.join(' and ')} in ${format.duration(seconds)}.`,
+      });
+    });
+  }
+
+  cancel(): void {
+    this.abort?.abort();
+  }
+
+  async download(type: OutputFormat): Promise<void> {
+    const { mesh, model } = this.store.state;
+    if (!mesh || !model) {
+      return;
+    }
+    try {
+      const content = await mesh.result.file(type);
+      save(new Blob([content]), `${model.name.replace(/\.[^.]*$/, '')}-quads.${type}`);
+      this.store.update({ status: `Saved as ${type.toUpperCase()}, ${format.count(content.length / 1024)} KB.` });
+    } catch (error) {
+      this.fail('The file could not be written', error);
+    }
+  }
+
+  private async open(name: string, load: () => Promise<ArrayBuffer>): Promise<void> {
+    await this.run('open', `${name} can't be used`, async (mesher, control) => {
+      const bytes = new Uint8Array(await load());
+      const { settings } = this.store.state;
+      const part = await mesher.inspect(bytes, { featureAngle: settings.featureAngle }, control);
+      const area = surfaceArea(part);
+      const sized = linkSizes({ ...settings, sizedBy: 'quads', quads: 3000 }, area);
+      this.store.update({
+        model: { name, bytes, part, area, featureAngle: settings.featureAngle },
+        settings: sized,
+        field: undefined,
+        mesh: undefined,
+        view: 'part',
+        display: { ...this.store.state.display, crosses: false },
+        galleryOpen: false,
+        status: `${name} is open.`,
+      });
+    });
+  }
+
+  /** Shows the part, its field or its mesh. */
+  setView(view: View): void {
+    const { display } = this.store.state;
+    this.store.update({ view, display: { ...display, crosses: view === 'field' } });
+  }
+
+  /** Lays the crosses over what is seen. */
+  setCrosses(crosses: boolean): void {
+    const { display, view } = this.store.state;
+    const seen = crosses && view === 'part' ? 'field' : !crosses && view === 'field' ? 'part' : view;
+    this.store.update({ view: seen, display: { ...display, crosses } });
+  }
+
+  /** Does what the state asks for but does not have: features at another angle, the field that shall be seen. */
+  private scheduleUpkeep(): void {
+    clearTimeout(this.upkeep);
+    this.upkeep = setTimeout(() => void this.keepUp(), 250);
+  }
+
+  private async keepUp(): Promise<void> {
+    const { state } = this.store;
+    const { model, settings, running } = state;
+    if (!model || running || !needsUpkeep(state)) {
+      return;
+    }
+    if (model.featureAngle !== settings.featureAngle) {
+      await this.run('open', 'The edges could not be found', async (mesher, control) => {
+        const { featureAngle } = settings;
+        const part = await mesher.inspect(model.bytes, { featureAngle }, control);
+        this.store.update({ model: { ...model, part, featureAngle }, status: 'Edges found again.' });
+      });
+      return;
+    }
+    await this.run('field', 'The cross field could not be computed', async (mesher, control) => {
+      const start = performance.now();
+      const result = await mesher.field(model.bytes, optionsOf(settings), control);
+      const seconds = (performance.now() - start) / 1000;
+      const singular = format.counted(result.singularities.indices.length, 'singularity', 'singularities');
+      this.store.update({
+        field: { result, optionsKey: optionsKey(settings), seconds },
+        status: `Cross field with ${singular} in ${format.duration(seconds)}.`,
+      });
+    });
+  }
+
+  /** Runs one task; what ran before is cancelled. The last good results stay when it fails. */
+  private async run(
+    task: Running['task'],
+    failure: string,
+    work: (
+      mesher: Mesher,
+      control: { signal: AbortSignal; onProgress: (progress: ProgressReport) => void },
+    ) => Promise<void>,
+  ): Promise<void> {
+    this.abort?.abort();
+    const abort = new AbortController();
+    this.abort = abort;
+    const since = performance.now();
+    const show = (stage: string, fraction: number) =>
+      this.store.update({ running: { task, stage, fraction, since }, status: `${stage}…` });
+    show(task === 'open' ? 'Opening' : 'Starting', 0);
+    this.store.update({ message: undefined });
+    try {
+      await work(await this.mesher, {
+        signal: abort.signal,
+        onProgress: (progress) => {
+          if (this.abort === abort && !abort.signal.aborted) {
+            show(stageLabel(progress.stage), overallFraction(task, progress));
+          }
+        },
+      });
+    } catch (error) {
+      this.settle(task, failure, error, this.abort === abort);
+    } finally {
+      if (this.abort === abort) {
+        this.abort = undefined;
+        this.store.update({ running: undefined });
+      }
+    }
+  }
+
+  private settle(task: Running['task'], failure: string, error: unknown, isLatest: boolean): void {
+    const cancelled = error instanceof QmcfError && error.code === 'cancelled';
+    if (!isLatest) {
+      return;
+    }
+    // What can't be had is no longer asked for, or it would be tried again at once.
+    const { state } = this.store;
+    if (task === 'field') {
+      this.store.update(withoutField(state));
+    } else if (task === 'open' && state.model) {
+      this.changeSettings({ featureAngle: state.model.featureAngle });
+    }
+    if (cancelled) {
+      this.store.update({ status: 'Cancelled.' });
+    } else {
+      this.fail(failure, error);
+    }
+  }
+
+  private fail(title: string, error: unknown): void {
+    const text = error instanceof Error ? error.message : String(error);
+    this.store.update({ message: { title, text }, status: `${title}.` });
+  }
+}
+
+function needsUpkeep({ model, settings, field, display, running }: State): boolean {
+  if (!model || running) {
+    return false;
+  }
+  const featuresOld = model.featureAngle !== settings.featureAngle;
+  const fieldOld = display.crosses && field?.optionsKey !== optionsKey(settings);
+  return featuresOld || fieldOld;
+}
+
+function withoutField(state: State): Partial<State> {
+  return {
+    display: { ...state.display, crosses: false },
+    view: state.view === 'field' ? 'part' : state.view,
+  };
+}
+
+function surfaceArea({ positions, triangles }: InspectResult): number {
+  let area = 0;
+  for (let t = 0; t < triangles.length; t += 3) {
+    const span = (corner: number) =>
+      [0, 1, 2].map((axis) => positions[3 * triangles[t + corner]! + axis]! - positions[3 * triangles[t]! + axis]!);
+    const [ax = 0, ay = 0, az = 0] = span(1);
+    const [bx = 0, by = 0, bz = 0] = span(2);
+    area += 0.5 * Math.hypot(ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx);
+  }
+  return area;
+}
+
+function save(content: Blob, name: string): void {
+  const link = document.createElement('a');
+  link.href = URL.createObjectURL(content);
+  link.download = name;
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(link.href), 10_000);
+}

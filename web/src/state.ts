@@ -1,0 +1,152 @@
+import type { FieldResult, InspectResult, MeshOptions, MeshResult, Mode } from 'qmcf';
+
+/** What the viewport shows. */
+export type View = 'part' | 'field' | 'mesh';
+
+/** A part that was opened and could be read. */
+export interface Model {
+  readonly name: string;
+  readonly bytes: Uint8Array;
+  /** Repaired, with the faces and edges at `featureAngle`. */
+  readonly part: InspectResult;
+  readonly featureAngle: number;
+  /** Of all faces, in squared units of the model. */
+  readonly area: number;
+}
+
+/** What the controls say. */
+export interface Settings {
+  /** Which of `size` and `quads` the user chose; the other one follows. */
+  readonly sizedBy: 'size' | 'quads';
+  readonly size: number;
+  readonly quads: number;
+  readonly featureAngle: number;
+  readonly mode: Mode;
+  readonly alignBoundary: boolean;
+  readonly alignSharp: boolean;
+  readonly alignNonManifold: boolean;
+  readonly alignCurvature: boolean;
+}
+
+/** What is drawn besides the view itself. */
+export interface Display {
+  readonly crosses: boolean;
+  readonly faceColors: boolean;
+  readonly irregular: boolean;
+  readonly quality: boolean;
+}
+
+/** A result and the options that made it. */
+export interface Made<T> {
+  readonly result: T;
+  readonly optionsKey: string;
+  readonly seconds: number;
+}
+
+/** Work that is under way. */
+export interface Running {
+  readonly task: 'open' | 'field' | 'mesh';
+  readonly stage: string;
+  /** Of the whole task, 0 to 1. */
+  readonly fraction: number;
+  /** performance.now() at the start. */
+  readonly since: number;
+}
+
+/** Something to tell the user. */
+export interface Message {
+  readonly title: string;
+  readonly text: string;
+}
+
+export interface State {
+  readonly model: Model | undefined;
+  readonly settings: Settings;
+  readonly view: View;
+  readonly display: Display;
+  readonly field: Made<FieldResult> | undefined;
+  readonly mesh: Made<MeshResult> | undefined;
+  readonly running: Running | undefined;
+  readonly message: Message | undefined;
+  /** One line on what happened last. */
+  readonly status: string;
+  readonly galleryOpen: boolean;
+}
+
+export const initialState: State = {
+  model: undefined,
+  settings: {
+    sizedBy: 'quads',
+    size: 0,
+    quads: 3000,
+    featureAngle: 30,
+    mode: 'qmcf',
+    alignBoundary: true,
+    alignSharp: true,
+    alignNonManifold: true,
+    alignCurvature: true,
+  },
+  view: 'part',
+  display: { crosses: false, faceColors: true, irregular: false, quality: false },
+  field: undefined,
+  mesh: undefined,
+  running: undefined,
+  message: undefined,
+  status: 'Open a part to begin.',
+  galleryOpen: true,
+};
+
+/** The options for the core that follow from the controls. */
+export function optionsOf(settings: Settings): MeshOptions {
+  const { sizedBy, size, quads, ...rest } = settings;
+  return sizedBy === 'size' ? { ...rest, size } : { ...rest, quads };
+}
+
+/** Equal for settings that give equal results. */
+export function optionsKey(settings: Settings): string {
+  return JSON.stringify(optionsOf(settings));
+}
+
+/** The other of size and count follows from the area: a quad of size h covers h². */
+export function linkSizes(settings: Settings, area: number): Settings {
+  return settings.sizedBy === 'size'
+    ? { ...settings, quads: Math.max(1, Math.round(area / settings.size ** 2)) }
+    : { ...settings, size: Math.sqrt(area / settings.quads) };
+}
+
+type Listener = (state: State, before: State) => void;
+
+/** Holds the state; listeners hear of all changes of one turn of the event loop at once. */
+export class Store {
+  private current: State = initialState;
+  private announced: State = initialState;
+  private readonly listeners: Listener[] = [];
+  private pending = false;
+
+  get state(): State {
+    return this.current;
+  }
+
+  update(change: Partial<State>): void {
+    this.current = { ...this.current, ...change };
+    if (!this.pending) {
+      this.pending = true;
+      queueMicrotask(() => this.announce());
+    }
+  }
+
+  /** Calls the listener now and after every change. */
+  subscribe(listener: Listener): void {
+    this.listeners.push(listener);
+    listener(this.current, this.current);
+  }
+
+  private announce(): void {
+    this.pending = false;
+    const before = this.announced;
+    this.announced = this.current;
+    for (const listener of this.listeners) {
+      listener(this.announced, before);
+    }
+  }
+}

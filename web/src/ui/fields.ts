@@ -1,0 +1,71 @@
+import { el, uniqueId } from '../dom.js';
+
+/** A number that the user types; only numbers in the range are passed on. */
+export interface NumberField {
+  readonly element: HTMLElement;
+  readonly input: HTMLInputElement;
+  /** Shows a value unless the user is typing one. */
+  set(text: string): void;
+}
+
+interface NumberFieldSettings {
+  readonly label: string;
+  readonly unit?: string;
+  readonly min: number;
+  readonly max: number;
+  readonly step?: string;
+  /** The limits themselves are excluded. */
+  readonly open?: boolean;
+  readonly onChange: (value: number) => void;
+}
+
+export function numberField(settings: NumberFieldSettings): NumberField {
+  const { label, unit, min, max, step = 'any', open = false, onChange } = settings;
+  const id = uniqueId();
+  const input = el('input', { id, type: 'number', inputmode: 'decimal', step, min, max });
+  const isValid = (value: number) => Number.isFinite(value) && (open ? value > min && value < max : value >= min && value <= max);
+  input.addEventListener('input', () => {
+    const value = input.valueAsNumber;
+    input.toggleAttribute('aria-invalid', !isValid(value));
+    if (isValid(value)) {
+      onChange(value);
+    }
+  });
+  const box = el('div', { class: 'number' }, input, ...(unit ? [el('span', { class: 'unit', 'aria-hidden': 'true' }, unit)] : []));
+  return {
+    element: el('div', { class: 'field' }, el('label', { for: id }, label), box),
+    input,
+    set(text) {
+      if (document.activeElement !== input) {
+        input.value = text;
+        input.removeAttribute('aria-invalid');
+      }
+    },
+  };
+}
+
+/** A labelled check box. */
+export interface Toggle {
+  readonly element: HTMLElement;
+  readonly input: HTMLInputElement;
+}
+
+export function toggle(label: string, onChange: (on: boolean) => void, hint?: string): Toggle {
+  const input = el('input', { type: 'checkbox' });
+  input.addEventListener('change', () => onChange(input.checked));
+  const text = el('span', {}, label);
+  const element = el('label', { class: 'toggle', title: hint }, input, text);
+  return { element, input };
+}
+
+/** A labelled choice of a few values. */
+export function select<T extends string>(
+  label: string,
+  values: readonly (readonly [value: T, text: string])[],
+  onChange: (value: T) => void,
+): { element: HTMLElement; input: HTMLSelectElement } {
+  const id = uniqueId();
+  const input = el('select', { id }, ...values.map(([value, text]) => el('option', { value }, text)));
+  input.addEventListener('change', () => onChange(input.value as T));
+  return { element: el('div', { class: 'field' }, el('label', { for: id }, label), input), input };
+}

@@ -1,0 +1,133 @@
+import type { FaceReport, MeshResult, QualityReport } from 'qmcf';
+import { el, show } from '../dom.js';
+import * as format from '../format.js';
+import { optionsKey, type Made, type Store } from '../state.js';
+import { qualityColor } from '../viewer/palette.js';
+import { icons } from './icons.js';
+import { repairNote } from './model_section.js';
+
+/** The figures of the mesh, and all that was not as it should be. */
+export function resultSection(store: Store): HTMLElement {
+  const body = el('div', { class: 'result-body' });
+  const old = el('p', { class: 'hint' }, 'The settings have changed since this mesh was made.');
+  const section = el('section', { class: 'result', 'aria-label': 'Result' }, old, body);
+  store.subscribe((state, before) => {
+    const { mesh } = state;
+    show(section, mesh !== undefined);
+    show(old, mesh !== undefined && mesh.optionsKey !== optionsKey(state.settings));
+    if (mesh && (state === before || mesh !== before.mesh)) {
+      body.replaceChildren(...report(mesh));
+    }
+  });
+  return section;
+}
+
+function report({ result, seconds }: Made<MeshResult>): HTMLElement[] {
+  const { quality, faces, repair } = result.report;
+  return [
+    verdict(quality),
+    headline(quality),
+    histogram(result.elementScaledJacobian),
+    figures(quality, result.size),
+    ...fallbacks(faces),
+    ...notes('What was repaired', repair.map(repairNote)),
+    el('p', { class: 'facts' }, `Made in ${format.duration(seconds)}, element size ${format.length(result.size)}.`),
+  ];
+}
+
+function verdict({ valid, checks }: QualityReport): HTMLElement {
+  const failed = checks.filter(({ status }) => status === 'fail');
+  const warned = checks.filter(({ status }) => status === 'warn');
+  const text = valid
+    ? `Valid: ${checks.filter(({ status }) => status !== 'skip').length - warned.length} checks passed`
+    : `Not valid: ${format.counted(failed.length, 'check')} failed`;
+  const sentences = [...failed, ...warned].map(({ sentence }) => el('li', {}, sentence));
+  return el(
+    'div',
+    { class: 'verdict', 'data-kind': valid ? 'good' : 'bad' },
+    el('p', { class: 'badge' }, valid ? icons.check() : icons.warn(), text),
+    ...(sentences.length > 0 ? [el('ul', { class: 'notes' }, ...sentences)] : []),
+  );
+}
+
+function headline(quality: QualityReport): HTMLElement {
+  const big = (value: string, label: string, kind = '') =>
+    el('div', { class: `big ${kind}` }, el('dd', {}, value), el('dt', {}, label));
+  return el(
+    'dl',
+    { class: 'headline' },
+    big(format.count(quality.quads), quality.quads === 1 ? 'quad' : 'quads'),
+    big(format.count(quality.triangles), quality.triangles === 1 ? 'triangle' : 'triangles', quality.triangles > 0 ? 'warm' : ''),
+    big(format.percent(quality.regularShare), 'regular vertices'),
+  );
+}
+
+const bins = 20;
+
+/** How many elements have which scaled Jacobian; heights by square root, so that single bad elements can be seen. */
+function histogram(values: Float64Array): HTMLElement {
+  const counts = new Array<number>(bins).fill(0);
+  for (const value of values) {
+    const bin = Math.min(bins - 1, Math.max(0, Math.floor(value * bins)));
+    counts[bin]! += 1;
+  }
+  const most = Math.max(...counts, 1);
+  const bars = counts.map((amount, i) => {
+    const bar = el('i', { title: `${(i / bins).toFixed(2)} to ${((i + 1) / bins).toFixed(2)}: ${format.counted(amount, 'element')}` });
+    bar.style.height = `${amount === 0 ? 0 : Math.max(4, 100 * Math.sqrt(amount / most))}%`;
+    bar.style.background = `#${qualityColor((i + 0.5) / bins).getHexString()}`;
+    return bar;
+  });
+  return el(
+    'figure',
+    { class: 'histogram' },
+    el('div', { class: 'bars', role: 'img', 'aria-label': 'Distribution of the scaled Jacobian' }, ...bars),
+    el('figcaption', {}, el('span', {}, '0'), el('span', {}, 'scaled Jacobian'), el('span', {}, '1')),
+  );
+}
+
+function figures(quality: QualityReport, size: number): HTMLElement {
+  const shapes: [string, QualityReport['scaledJacobian']][] = [
+    ['Scaled Jacobian', quality.scaledJacobian],
+    ['Jacobian ratio', quality.jacobianRatio],
+    ['Aspect ratio', quality.aspectRatio],
+    ['Orthogonal quality', quality.orthogonalQuality],
+  ];
+  const distance = quality.largestDistance;
+  const singles: [string, string][] = [
+    ['Size off by, mean', `${format.figure(quality.sizeError)} octaves`],
+    ['Sharp edges kept', format.percent(quality.sharpRecall)],
+    ['Corners kept', format.percent(quality.cornerRecall)],
+    ...(typeof quality.boundaryRecall === 'number'
+      ? ([['Boundary kept', format.percent(quality.boundaryRecall)]] as [string, string][])
+      : []),
+    ['Largest distance', typeof distance === 'number' ? `${((100 * distance) / size).toFixed(1)} % of size` : 'n/a'],
+  ];
+  const head = el('tr', {}, el('th', { scope: 'col' }, 'Shape'), el('th', { scope: 'col' }, 'mean'), el('th', { scope: 'col' }, 'worst 1 %'), el('th', { scope: 'col' }, 'worst'));
+  const rows = shapes.map(([label, { mean, p1, worst }]) =>
+    el('tr', {}, el('th', { scope: 'row' }, label), ...[mean, p1, worst].map((v) => el('td', {}, format.figure(v)))),
+  );
+  const others = singles.map(([label, text]) => el('tr', {}, el('th', { scope: 'row' }, label), el('td', { colspan: 3 }, text)));
+  return el('table', { class: 'figures' }, el('thead', {}, head), el('tbody', {}, ...rows, ...others));
+}
+
+const methodNames: Record<FaceReport['method'], string> = {
+  qmcf: 'cross field',
+  qmorph: 'Q-Morph',
+  recombined: 'paired triangles',
+  triangles: 'triangles only',
+};
+
+/** The faces that another method than the first had to mesh. */
+function fallbacks(faces: readonly FaceReport[]): HTMLElement[] {
+  const fallen = faces.filter(({ reason }) => reason !== '');
+  const items = fallen.map(({ face, method, reason }) => el('li', {}, `Face ${face + 1}, ${methodNames[method]}: ${reason}`));
+  const title = `${format.count(fallen.length)} of ${format.counted(faces.length, 'face')} meshed by a fallback`;
+  return notes(title, items);
+}
+
+function notes(title: string, items: HTMLElement[]): HTMLElement[] {
+  return items.length === 0
+    ? []
+    : [el('details', {}, el('summary', {}, title), el('ul', { class: 'notes' }, ...items))];
+}

@@ -1,0 +1,195 @@
+import { DirectionalLight, HemisphereLight, MathUtils, PerspectiveCamera, Scene, Vector3, WebGLRenderer } from 'three';
+import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
+import type { FieldResult, InspectResult, MeshResult } from 'qmcf';
+import { FieldLayer } from './field_layer.js';
+import { Frame } from './frame.js';
+import { MeshLayer, type MeshLook } from './mesh_layer.js';
+import { darkPalette, lightPalette, type Palette } from './palette.js';
+import { PartLayer, type PartLook } from './part_layer.js';
+
+/** The part of the canvas that nothing covers, in CSS pixels. */
+export interface FreeArea {
+  readonly left: number;
+  readonly top: number;
+  readonly width: number;
+  readonly height: number;
+}
+
+/** What is drawn, and how. */
+export interface Look {
+  readonly part: PartLook | undefined;
+  readonly field: boolean;
+  readonly mesh: MeshLook | undefined;
+}
+
+const fieldOfView = 26;
+const viewDirection = new Vector3(0.62, -0.9, 0.55).normalize();
+
+/** The three-dimensional view. Draws only when something changed. */
+export class Viewer {
+  private readonly renderer: WebGLRenderer;
+  private readonly scene = new Scene();
+  private readonly camera = new PerspectiveCamera(fieldOfView);
+  private readonly controls: OrbitControls;
+  private readonly partLayer = new PartLayer();
+  private readonly fieldLayer = new FieldLayer();
+  private readonly meshLayer = new MeshLayer();
+  private readonly sky = new HemisphereLight();
+  private frame: Frame | undefined;
+  private palette: Palette = lightPalette;
+  private free: FreeArea = { left: 0, top: 0, width: 1, height: 1 };
+  private shown: { part?: InspectResult; field?: FieldResult; mesh?: MeshResult } = {};
+  private scheduled = false;
+
+  constructor(private readonly canvas: HTMLCanvasElement) {
+    this.renderer = new WebGLRenderer({ canvas, antialias: true, alpha: true });
+    this.renderer.setPixelRatio(Math.min(2, window.devicePixelRatio));
+    this.scene.add(this.partLayer, this.fieldLayer, this.meshLayer, this.camera, this.sky);
+    this.addCameraLights();
+    this.camera.up.set(0, 0, 1);
+    this.controls = new OrbitControls(this.camera, canvas);
+    this.controls.enableDamping = !window.matchMedia('(prefers-reduced-motion: reduce)').matches;
+    this.controls.dampingFactor = 0.12;
+    this.controls.zoomToCursor = true;
+    this.controls.addEventListener('change', () => this.invalidate());
+    new ResizeObserver(() => this.resize()).observe(canvas);
+    const dark = window.matchMedia('(prefers-color-scheme: dark)');
+    dark.addEventListener('change', () => this.setPalette(dark.matches));
+    this.setPalette(dark.matches);
+  }
+
+  /** Shows a part; the camera moves only when it is another one. */
+  setPart(part: InspectResult, isNew: boolean): void {
+    this.shown.part = part;
+    if (isNew || !this.frame) {
+      this.frame = Frame.around(part.positions);
+      delete this.shown.field;
+      delete this.shown.mesh;
+      this.fieldLayer.clear();
+      this.meshLayer.clear();
+      this.fit();
+    }
+    this.partLayer.show(part, this.frame, this.palette);
+    this.invalidate();
+  }
+
+  setField(field: FieldResult | undefined): void {
+    this.fieldLayer.clear();
+    delete this.shown.field;
+    if (field && this.frame) {
+      this.shown.field = field;
+      this.fieldLayer.show(field, this.frame, this.palette);
+    }
+    this.invalidate();
+  }
+
+  setMesh(mesh: MeshResult | undefined): void {
+    this.meshLayer.clear();
+    delete this.shown.mesh;
+    if (mesh && this.frame) {
+      this.shown.mesh = mesh;
+      this.meshLayer.show(mesh, this.frame, this.palette);
+    }
+    this.invalidate();
+  }
+
+  setLook(look: Look): void {
+    this.partLayer.visible = look.part !== undefined;
+    this.fieldLayer.visible = look.field;
+    this.meshLayer.visible = look.mesh !== undefined;
+    if (look.part) {
+      this.partLayer.setLook(look.part);
+    }
+    if (look.mesh) {
+      this.meshLayer.setLook(look.mesh);
+    }
+    this.invalidate();
+  }
+
+  /** Keeps the model in the middle of what the page leaves free. */
+  setFreeArea(free: FreeArea): void {
+    this.free = free;
+    this.resize();
+  }
+
+  /** Turns and moves the camera so that the whole part is seen. */
+  fit(): void {
+    if (!this.frame) {
+      return;
+    }
+    const { box } = this.frame;
+    const height = this.canvas.clientHeight || 1;
+    // The sphere around the box would waste space on flat and long parts: what counts is the box as it is seen.
+    const right = new Vector3().crossVectors(viewDirection, this.camera.up).normalize();
+    const up = new Vector3().crossVectors(right, viewDirection);
+    const extent = (axis: Vector3) =>
+      Math.abs(axis.x) * box.max.x + Math.abs(axis.y) * box.max.y + Math.abs(axis.z) * box.max.z;
+    const room = Math.min(this.free.width / extent(right), this.free.height / extent(up)) * 0.42;
+    const depth = extent(viewDirection);
+    const distance = height / (2 * Math.tan(MathUtils.degToRad(fieldOfView / 2)) * room) + 0.5 * depth;
+    this.camera.position.copy(viewDirection).multiplyScalar(distance);
+    this.controls.target.set(0, 0, 0);
+    this.controls.minDistance = 0.02;
+    this.controls.maxDistance = 6 * distance;
+    this.controls.update();
+    this.invalidate();
+  }
+
+  /** Draws before the next repaint. */
+  invalidate(): void {
+    if (!this.scheduled) {
+      this.scheduled = true;
+      requestAnimationFrame(() => this.draw());
+    }
+  }
+
+  private draw(): void {
+    this.scheduled = false;
+    // Damping goes on after the pointer was released; update() then asks for the next frame by its change event.
+    this.controls.update();
+    const distance = this.camera.position.length();
+    this.camera.near = Math.max(distance - 1.5, 0.005 * distance);
+    this.camera.far = distance + 1.5;
+    this.camera.updateProjectionMatrix();
+    this.renderer.render(this.scene, this.camera);
+  }
+
+  private resize(): void {
+    const { clientWidth: width, clientHeight: height } = this.canvas;
+    if (width === 0 || height === 0) {
+      return;
+    }
+    this.renderer.setSize(width, height, false);
+    this.camera.aspect = width / height;
+    const { left, top } = this.free;
+    const offsetX = Math.round(width / 2 - (left + this.free.width / 2));
+    const offsetY = Math.round(height / 2 - (top + this.free.height / 2));
+    this.camera.setViewOffset(width, height, offsetX, offsetY, width, height);
+    this.invalidate();
+  }
+
+  private setPalette(dark: boolean): void {
+    this.palette = dark ? darkPalette : lightPalette;
+    this.sky.color = this.palette.skyLight;
+    this.sky.groundColor = this.palette.groundLight;
+    this.sky.intensity = 1.5;
+    const { part, field, mesh } = this.shown;
+    if (part) {
+      this.setPart(part, false);
+      this.setField(field);
+      this.setMesh(mesh);
+    }
+    this.invalidate();
+  }
+
+  /** The light comes over the viewer's left shoulder, wherever the camera is. */
+  private addCameraLights(): void {
+    const key = new DirectionalLight('#ffffff', 1.7);
+    key.position.set(-1.2, 1.6, 2.2);
+    const rim = new DirectionalLight('#ffffff', 0.5);
+    rim.position.set(2, -0.5, 1);
+    for (const light of [key, rim]) {
+      this.camera.add(light, light.target);
+    }
+  }
+}
