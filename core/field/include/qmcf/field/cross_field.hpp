@@ -25,36 +25,49 @@ struct TangentFrame {
   Vec3 normal;
 };
 
-/// How the constraints enter the linear system (sections 3.2.2 of the paper; B1 of docs/algorithm.md).
+/// How the constraints enter the linear system (section 3.2.2 of the paper; B1 of docs/algorithm.md).
 enum class FieldSolver : std::uint8_t { eliminate, leastSquares };
 
 /// Which constraints apply, and how the field is solved.
 struct FieldOptions {
-  bool boundary = true;      ///< Align with boundary edges.
-  bool sharp = true;         ///< Align with sharp and label edges.
-  bool nonManifold = true;   ///< Align with non-manifold edges.
-  bool curvature = true;     ///< Guide by, and pin to, reliable principal curvature directions.
+  bool boundary = true;     ///< Align with boundary edges.
+  bool sharp = true;        ///< Align with sharp and label edges.
+  bool nonManifold = true;  ///< Align with non-manifold edges.
+  bool curvature = true;    ///< Guide by, and pin to, reliable principal curvature directions.
   FieldSolver solver = FieldSolver::eliminate;
+  double guidance = 0.3;         ///< Strength of the curvature's pull, per (k1 - k2)^2; >= 0.
+  bool pinCurvature = false;     ///< Pin the reliable curvature directions rather than let them pull alone.
+  double pinAnisotropy = 0.7;    ///< Least |k1 - k2| / (|k1| + |k2|) of a reliable direction, in [0, 1].
+  double pinTurn = 0.05;         ///< Least turn of the surface across one element, in radians, of a reliable direction.
+  bool diffuse = true;           ///< Spread the singularities by diffusing and renormalising.
+  double diffusionLength = 2.5;  ///< What the last diffusion smooths over, in elements, > 0.
+  double cancelDistance = 3.0;   ///< Opposite singularities closer than this many elements are removed; 0: none.
 };
 
 /// A cross per vertex and what follows from it.
 /// A cross is stored as the fourth power of a unit complex number: angle a and a + k pi/2 are the same u = e^(4 i a),
 /// a measured in the vertex's TangentFrame.
 struct CrossField {
-  IdMap<VertexId, std::complex<double>> cross;      ///< |u| = 1.
+  IdMap<VertexId, std::complex<double>> cross;  ///< |u| = 1.
   IdMap<VertexId, TangentFrame> frame;
-  IdMap<VertexId, std::uint8_t> constrained;        ///< 0 free, 1 boundary or other edge, 2 curvature, 3 user.
-  IdMap<TriangleId, std::int32_t> index;            ///< Quarter turns around each triangle.
-  /// Per triangle: the field at its corners as u in the triangle's own frame (x along its first half-edge, normal of the
-  /// triangle), continuous across the corners: their barycentric mean interpolates.
+  IdMap<VertexId, std::uint8_t> constrained;  ///< 0 free, 1 boundary or other edge, 2 curvature, 3 user.
+  IdMap<TriangleId, std::int32_t> index;      ///< Quarter turns around each triangle.
+  /// Per triangle: the field at its corners as u in the triangle's own frame (x along its first half-edge, normal of
+  /// the triangle), continuous across the corners: their barycentric mean interpolates.
   IdMap<TriangleId, std::array<std::complex<double>, 3>> corner;
-  std::vector<Singularity> singularities;
-  double energy = 0.0;                              ///< Dirichlet energy of the normalised field.
+  /// Per triangle and corner: by how much the field turns further towards the corner, in radians. Not zero only where a
+  /// boundary curve was cut into chords: there the field follows the tangent at the node and the chord in its middle.
+  IdMap<TriangleId, std::array<double, 3>> tangentTurn;
+  std::vector<Singularity> singularities;  ///< By triangle.
+  double energy = 0.0;                     ///< Dirichlet energy of the normalised field, half of u^H A u.
 };
 
 /// The four directions of the field at a point, as unit vectors in the triangle's plane, counter-clockwise.
 /// At the exact zero of the field the direction is the first corner's.
 std::array<Vec3, 4> crossDirections(const Surface& surface, const CrossField& field, const SurfacePoint& point);
+
+/// The angle of one of the four directions in the triangle's own frame, in constant time.
+double crossAngle(const CrossField& field, const SurfacePoint& point);
 
 /// How well the direction is defined at a point, in [0, 1]: the length of the interpolated u.
 double crossConfidence(const CrossField& field, const SurfacePoint& point);
@@ -64,5 +77,9 @@ double crossConfidence(const CrossField& field, const SurfacePoint& point);
 /// Errors: cancelled, internal (factorisation failed).
 Result<CrossField> computeCrossField(const Patch& patch, const std::vector<std::uint8_t>& edgeKinds,
                                      const FieldOptions& options, Progress& progress);
+
+/// By how much the field breaks Gauss-Bonnet: the sum of the indices plus the sum of 2 - k over the boundary vertices
+/// (k quads wanted) minus 4 chi, minus the field's own turning along an unconstrained boundary. Always 0.
+std::int64_t gaussBonnetDefect(const Patch& patch, const CrossField& field);
 
 }  // namespace qmcf

@@ -1,0 +1,33 @@
+#pragma once
+
+#include "curvature.hpp"
+#include "qmcf/field/cross_field.hpp"
+#include "solve.hpp"
+
+namespace qmcf {
+
+/// Conditions without any constraint.
+FieldConditions freeConditions(std::size_t vertexCount);
+
+/// Pins the boundary vertices on edges of the kinds that the options name. Always consistent: along the boundary the
+/// connection moves the cross of the edges to itself.
+void pinBoundary(const Patch& patch, const std::vector<std::uint8_t>& edgeKinds, const FieldOptions& options,
+                 FieldConditions& conditions);
+
+/// Whether curvature has a say: not where the boundary lies dense enough to steer the field by itself (QuadWild's rule,
+/// B3 of docs/algorithm.md).
+bool curvatureMatters(const Patch& patch, const FieldMatrices& matrices);
+
+/// Lets the principal directions pull wherever no pinned vertex is a neighbour (the alpha mask of the paper's Eq. 4).
+void pullToCurvature(const Patch& patch, const CurvatureField& curvature, double strength, FieldConditions& conditions);
+
+/// Pins the free vertices with reliable principal directions to these.
+void pinCurvature(const Patch& patch, const CurvatureField& curvature, const FieldOptions& options,
+                  FieldConditions& conditions);
+
+/// Frees vertices pinned to curvature where the pinned crosses contradict each other: the corners of a triangle around
+/// which they turn, and the ends of an edge along which they differ by more than kLargestTurn (section 3.2.3).
+/// Returns how many were freed; 0 is a fixed point.
+std::int32_t removeInconsistentPins(const Patch& patch, const Connection& connection, FieldConditions& conditions);
+
+}  // namespace qmcf

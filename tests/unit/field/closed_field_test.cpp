@@ -1,0 +1,48 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "field/patches.hpp"
+#include "qmcf/field/cross_field.hpp"
+
+namespace qmcf {
+namespace {
+
+CrossField solve(const Patch& patch, const FieldOptions& options = {}) {
+  SilentProgress progress;
+  Result<CrossField> field = computeCrossField(patch, {}, options, progress);
+  EXPECT_TRUE(field.ok());
+  return std::move(field).value();
+}
+
+TEST(ClosedField, OfSphereHasEightSingularities) {
+  const Patch patch = testing::makeSphere(16);
+  const CrossField field = solve(patch);
+  EXPECT_EQ(gaussBonnetDefect(patch, field), 0);
+  EXPECT_EQ(field.singularities.size(), 8U);
+  for (const Singularity& s : field.singularities) EXPECT_EQ(s.index, 1);
+}
+
+TEST(ClosedField, OfTorusHasSingularitiesThatCancel) {
+  const Patch patch = testing::makeTorus(48, 20);
+  const CrossField field = solve(patch);
+  EXPECT_EQ(gaussBonnetDefect(patch, field), 0);
+  EXPECT_EQ(field.singularities.size() % 2, 0U);
+}
+
+TEST(ClosedField, OfTinyPatchesExists) {
+  const Patch triangle = testing::makePatch({{0, 0, 0}, {1, 0, 0}, {0.5, 0.9, 0}}, {{0, 1, 2}}, 1.0);
+  const CrossField field = solve(triangle);
+  ASSERT_EQ(field.singularities.size(), 1U);  // Three corners with one quad each leave one quarter turn.
+  EXPECT_EQ(field.singularities[0].index, 1);
+  EXPECT_EQ(gaussBonnetDefect(triangle, field), 0);
+
+  const auto map = [](double x, double y) { return Vec3{x, 0.1 * y, 0.0}; };
+  const Patch strip = testing::makeGrid({.nx = 6, .ny = 1, .map = map, .keep = {}}, 0.1);
+  const CrossField alongStrip = solve(strip);
+  EXPECT_EQ(gaussBonnetDefect(strip, alongStrip), 0);
+  EXPECT_TRUE(alongStrip.singularities.empty());
+}
+
+}  // namespace
+}  // namespace qmcf
