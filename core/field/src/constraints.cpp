@@ -1,7 +1,10 @@
 #include "constraints.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
+#include "frames.hpp"
 #include "qmcf/base/math.hpp"
 #include "qmcf/topology/brep.hpp"
 #include "singularities.hpp"
@@ -13,6 +16,9 @@ constexpr double kDenseBoundary = 6.0;                     // boundary length / 
 constexpr double kLargestTurn = 17.5 * math::kPi / 180.0;  // of a cross along an edge between pinned vertices
 constexpr std::uint8_t kEdgePin = 1;
 constexpr std::uint8_t kCurvaturePin = 2;
+constexpr std::uint8_t kStrokePin = 3;
+constexpr double kStrokeWidth = 0.5;       // elements to either side
+constexpr double kLeastTangentPart = 0.7;  // of a stroke's direction in the tangent plane
 
 bool wanted(const Patch& patch, HalfedgeId h, const std::vector<std::uint8_t>& edgeKinds, const FieldOptions& options) {
   const std::int32_t edge = patch.edge.empty() ? kNone : patch.edge[h];
@@ -31,12 +37,6 @@ bool wanted(const Patch& patch, HalfedgeId h, const std::vector<std::uint8_t>& e
 
 }  // namespace
 
-FieldConditions freeConditions(std::size_t vertexCount) {
-  const auto count = static_cast<Eigen::Index>(vertexCount);
-  return {std::vector<std::uint8_t>(vertexCount, 0), FieldVector::Zero(count), Eigen::VectorXd::Zero(count),
-          FieldVector::Zero(count)};
-}
-
 void pinBoundary(const Patch& patch, const std::vector<std::uint8_t>& edgeKinds, const FieldOptions& options,
                  FieldConditions& conditions) {
   const Surface& surface = patch.surface;
@@ -49,6 +49,39 @@ void pinBoundary(const Patch& patch, const std::vector<std::uint8_t>& edgeKinds,
   }
 }
 
+void pinStrokes(const Patch& patch, const IdMap<VertexId, TangentFrame>& frames,
+                const std::vector<FieldStroke>& strokes, FieldConditions& conditions) {
+  const Surface& surface = patch.surface;
+  const auto count = surface.vertexCount();
+  std::vector<double> nearest(count, std::numeric_limits<double>::infinity());  // in elements
+  for (const FieldStroke& stroke : strokes) {
+    const Vec3 along = stroke.to - stroke.from;
+    if (!(squaredNorm(along) > 0.0)) continue;
+    const auto distanceInElements = [&](VertexId v) {
+      const double f = dot(surface.position(v) - stroke.from, along) / squaredNorm(along);
+      return distance(surface.position(v), stroke.from + along * std::clamp(f, 0.0, 1.0)) / patch.size[v];
+    };
+    VertexId closest;
+    double least = 1.0;
+    for (const VertexId v : surface.vertices()) {
+      const double d = distanceInElements(v);
+      if (d < least) {
+        least = d;
+        closest = v;
+      }
+    }
+    for (const VertexId v : surface.vertices()) {
+      const double d = distanceInElements(v);
+      const bool tangential = norm(tangentPart(normalized(along), frames[v].normal)) > kLeastTangentPart;
+      const bool reached = d < kStrokeWidth || v == closest;
+      if (!reached || !tangential || d >= nearest[v.index()] || conditions.pinned[v.index()] == kEdgePin) continue;
+      nearest[v.index()] = d;
+      conditions.pinned[v.index()] = kStrokePin;
+      conditions.value[v.value] = crossAlong(frames[v], along);
+    }
+  }
+}
+
 bool curvatureMatters(const Patch& patch, const FieldMatrices& matrices) {
   double length = 0.0;
   for (const HalfedgeId h : patch.surface.halfedges()) {
@@ -57,11 +90,12 @@ bool curvatureMatters(const Patch& patch, const FieldMatrices& matrices) {
   return length <= kDenseBoundary * std::sqrt(matrices.area.sum());
 }
 
-void pullToCurvature(const Patch& patch, const CurvatureField& curvature, double strength,
+void pullToCurvature(const Patch& patch, const CurvatureField& curvature, const FieldOptions& options,
                      FieldConditions& conditions) {
   const Surface& surface = patch.surface;
   std::vector<std::uint8_t> masked = conditions.pinned;
   for (const HalfedgeId h : surface.halfedges()) {
+    if (!options.mask) break;
     const std::size_t a = surface.origin(h).index();
     const std::size_t b = surface.target(h).index();
     if (conditions.pinned[a] != 0) masked[b] = 1;
@@ -70,7 +104,7 @@ void pullToCurvature(const Patch& patch, const CurvatureField& curvature, double
   for (const VertexId v : surface.vertices()) {
     if (masked[v.index()] != 0) continue;
     conditions.guide[v.value] = curvature.directions(v.value);
-    conditions.pull[v.value] = 4.0 * strength * std::norm(curvature.deviator[v.value]);
+    conditions.pull[v.value] = 4.0 * options.guidance * std::norm(curvature.deviator[v.value]);
   }
 }
 
@@ -109,6 +143,7 @@ std::int32_t removeInconsistentPins(const Patch& patch, const Connection& connec
   for (std::size_t v = 0; v < bad.size(); ++v) {
     if (bad[v] == 0 || conditions.pinned[v] != kCurvaturePin) continue;
     conditions.pinned[v] = 0;
+    conditions.removed[v] = 1;
     conditions.value[static_cast<Eigen::Index>(v)] = 0.0;
     ++freed;
   }

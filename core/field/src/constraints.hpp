@@ -6,20 +6,22 @@
 
 namespace qmcf {
 
-/// Conditions without any constraint.
-FieldConditions freeConditions(std::size_t vertexCount);
-
 /// Pins the boundary vertices on edges of the kinds that the options name. Always consistent: along the boundary the
 /// connection moves the cross of the edges to itself.
 void pinBoundary(const Patch& patch, const std::vector<std::uint8_t>& edgeKinds, const FieldOptions& options,
                  FieldConditions& conditions);
 
+/// Pins free vertices along the strokes.
+void pinStrokes(const Patch& patch, const IdMap<VertexId, TangentFrame>& frames,
+                const std::vector<FieldStroke>& strokes, FieldConditions& conditions);
+
 /// Whether curvature has a say: not where the boundary lies dense enough to steer the field by itself (QuadWild's rule,
 /// B3 of docs/algorithm.md).
 bool curvatureMatters(const Patch& patch, const FieldMatrices& matrices);
 
-/// Lets the principal directions pull wherever no pinned vertex is a neighbour (the alpha mask of the paper's Eq. 4).
-void pullToCurvature(const Patch& patch, const CurvatureField& curvature, double strength, FieldConditions& conditions);
+/// Lets the principal directions pull at free vertices; with options.mask only where no pinned vertex is a neighbour.
+void pullToCurvature(const Patch& patch, const CurvatureField& curvature, const FieldOptions& options,
+                     FieldConditions& conditions);
 
 /// Pins the free vertices with reliable principal directions to these.
 void pinCurvature(const Patch& patch, const CurvatureField& curvature, const FieldOptions& options,

@@ -15,21 +15,29 @@ namespace {
 
 constexpr int kRemovalRounds = 5;
 
-/// The field of least energy, every cross of length 1.
-Result<FieldVector> solveField(const FieldMatrices& matrices, const FieldConditions& conditions, Progress& progress) {
+FieldMatrices assemble(const Patch& patch, const Connection& connection, const FieldOptions& options) {
+  if (options.energy == FieldEnergy::cotangent) return assembleCotangent(patch, connection);
+  return assembleFiniteElements(patch, connection, std::clamp(options.smoothness, -1.0, 1.0));
+}
+
+/// The linear solve; every cross of length 1.
+Result<Smoothest> solveLinear(const FieldMatrices& matrices, const FieldConditions& conditions,
+                              const FieldOptions& options, Progress& progress) {
   const bool pinned = std::any_of(conditions.pinned.begin(), conditions.pinned.end(), [](auto p) { return p != 0; });
-  FieldVector field;
+  Smoothest result;
   if (pinned || conditions.pull.maxCoeff() > 0.0) {
-    Result<FieldVector> solved = solveEliminated(matrices, conditions);
+    Result<FieldVector> solved = options.solver == FieldSolver::leastSquares
+                                     ? solveLeastSquares(matrices, conditions, std::min(options.shift, 0.0))
+                                     : solveEliminated(matrices, conditions);
     if (!solved) return solved.error();
-    field = std::move(solved).value();
+    result.field = std::move(solved).value();
   } else {
     Result<Smoothest> solved = solveSmoothest(matrices, progress);
     if (!solved) return solved.error();
-    field = std::move(solved.value().field);
+    result = std::move(solved).value();
   }
-  normaliseCrosses(field, FieldVector::Ones(field.size()));
-  return field;
+  normaliseCrosses(result.field, FieldVector::Ones(result.field.size()));
+  return result;
 }
 
 /// Adds what curvature says: pull and, where it is reliable and consistent, pins.
@@ -43,7 +51,7 @@ void addCurvature(const Patch& patch, const Connection& connection, const FieldM
       if (removeInconsistentPins(patch, connection, conditions) == 0) break;
     }
   }
-  pullToCurvature(patch, curvature, options.guidance, conditions);
+  pullToCurvature(patch, curvature, options, conditions);
 }
 
 }  // namespace
@@ -53,15 +61,17 @@ Result<CrossField> computeCrossField(const Patch& patch, const std::vector<std::
   if (!progress.report(Stage::field, 0.0)) return cancelledError();
   const Surface& surface = patch.surface;
   const Connection connection = buildConnection(patch);
-  const FieldMatrices matrices = assembleCotangent(patch, connection);
-  FieldConditions conditions = freeConditions(surface.vertexCount());
+  const IdMap<VertexId, TangentFrame> frames = tangentFrames(patch, connection);
+  const FieldMatrices matrices = assemble(patch, connection, options);
+  FieldConditions conditions(surface.vertexCount());
   pinBoundary(patch, edgeKinds, options, conditions);
+  pinStrokes(patch, frames, options.strokes, conditions);
   addCurvature(patch, connection, matrices, options, conditions);
   if (!progress.report(Stage::field, 0.1)) return cancelledError();
 
-  Result<FieldVector> solved = solveField(matrices, conditions, progress);
+  Result<Smoothest> solved = solveLinear(matrices, conditions, options, progress);
   if (!solved) return solved.error();
-  FieldVector& u = solved.value();
+  FieldVector& u = solved.value().field;
   if (options.diffuse) {
     DiffusionSchedule schedule;
     schedule.finalLength = options.diffusionLength;
@@ -75,8 +85,10 @@ Result<CrossField> computeCrossField(const Patch& patch, const std::vector<std::
   }
 
   CrossField field;
-  field.frame = tangentFrames(patch, connection);
+  field.frame = frames;
   field.constrained.raw() = conditions.pinned;
+  field.removed.raw() = conditions.removed;
+  field.eigenvalue = solved.value().eigenvalue;
   field.cross.raw().assign(u.data(), u.data() + u.size());
   field.energy = 0.5 * u.dot(matrices.energy * u).real();
   field.index = triangleIndices(surface, connection, field.cross);

@@ -26,6 +26,21 @@ FieldMatrix FreePart::block(const FieldMatrix& matrix) const {
   return result;
 }
 
+FieldMatrix FreePart::columns(const FieldMatrix& matrix) const {
+  std::vector<Eigen::Triplet<Complex>> entries;
+  entries.reserve(static_cast<std::size_t>(matrix.nonZeros()));
+  for (Eigen::Index column = 0; column < matrix.outerSize(); ++column) {
+    const int to = unknown_[static_cast<std::size_t>(column)];
+    if (to < 0) continue;
+    for (FieldMatrix::InnerIterator it(matrix, column); it; ++it) {
+      entries.emplace_back(static_cast<int>(it.row()), to, it.value());
+    }
+  }
+  FieldMatrix result(matrix.rows(), size());
+  result.setFromTriplets(entries.begin(), entries.end());
+  return result;
+}
+
 FieldVector FreePart::given(const FieldMatrix& matrix, const FieldVector& value) const {
   FieldVector result = FieldVector::Zero(size());
   for (Eigen::Index column = 0; column < matrix.outerSize(); ++column) {

@@ -18,6 +18,8 @@ class FreePart {
   [[nodiscard]] Eigen::Index vertex(Eigen::Index unknown) const { return vertex_[static_cast<std::size_t>(unknown)]; }
   /// Rows and columns of the unknowns.
   [[nodiscard]] FieldMatrix block(const FieldMatrix& matrix) const;
+  /// Columns of the unknowns.
+  [[nodiscard]] FieldMatrix columns(const FieldMatrix& matrix) const;
   /// Rows of the unknowns, of matrix times the given values.
   [[nodiscard]] FieldVector given(const FieldMatrix& matrix, const FieldVector& value) const;
   [[nodiscard]] FieldVector restrict(const FieldVector& all) const;

@@ -23,30 +23,31 @@ double halfCotangent(const Surface& surface, HalfedgeId h) {
   return twiceArea > 1e-14 * (norm(a) * norm(b)) ? 0.5 * dot(a, b) / twiceArea : 0.0;
 }
 
-void measure(const Patch& patch, FieldMatrices& matrices) {
+}  // namespace
+
+FieldMatrices measuredMatrices(const Patch& patch) {
   const Surface& surface = patch.surface;
   const auto count = static_cast<Eigen::Index>(surface.vertexCount());
+  FieldMatrices matrices;
   matrices.area = Eigen::VectorXd::Zero(count);
   double total = 0.0;
   for (const TriangleId t : surface.triangles()) {
     const double third = norm(surface.areaVector(t)) / 6.0;
     for (const VertexId v : surface.corners(t)) matrices.area[row(v)] += third;
-    total += third;
+    total += 3.0 * third;
   }
   // A vertex without area would leave its cross without a say in the diffusion.
   const double least = 1e-6 * std::max(total, 1e-300) / static_cast<double>(count);
   matrices.area = matrices.area.cwiseMax(least);
   matrices.cells = matrices.area;
   for (const VertexId v : surface.vertices()) matrices.cells[row(v)] /= patch.size[v] * patch.size[v];
+  return matrices;
 }
-
-}  // namespace
 
 FieldMatrices assembleCotangent(const Patch& patch, const Connection& connection) {
   const Surface& surface = patch.surface;
   const auto count = static_cast<Eigen::Index>(surface.vertexCount());
-  FieldMatrices matrices;
-  measure(patch, matrices);
+  FieldMatrices matrices = measuredMatrices(patch);
   std::vector<double> diagonal(surface.vertexCount(), 0.0);
   std::vector<Triplet> entries;
   entries.reserve(surface.halfedgeCount() + 2 * surface.vertexCount());

@@ -20,7 +20,14 @@ struct FieldMatrices {
   Eigen::VectorXd cells;  ///< The same area in units of the elements wanted there.
 };
 
+/// Areas and cells of the vertices; energy and mass empty.
+FieldMatrices measuredMatrices(const Patch& patch);
+
 /// The connection Laplacian with cotangent weights (A3 of docs/algorithm.md).
 FieldMatrices assembleCotangent(const Patch& patch, const Connection& connection);
+
+/// The full finite-element matrices (A2). smoothness: s in [-1, 1] between antiholomorphic and holomorphic energy, 0
+/// for Dirichlet's.
+FieldMatrices assembleFiniteElements(const Patch& patch, const Connection& connection, double smoothness);
 
 }  // namespace qmcf

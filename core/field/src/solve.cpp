@@ -15,7 +15,12 @@ constexpr int kInverseIterations = 60;
 
 Error unsolvable() { return {ErrorCode::internal, "The cross field's linear system could not be solved.", {}}; }
 
-/// energy + shift * mass, on the unknowns, plus the pull.
+/// What makes a singular energy positive definite.
+double smallShift(const FieldMatrices& matrices) {
+  return kShift * std::max(matrices.energy.diagonal().real().sum(), 1e-300) / matrices.area.sum();
+}
+
+/// The energy of the unknowns, plus the pull.
 FieldMatrix pulledEnergy(const FieldMatrices& matrices, const FieldConditions& conditions, const FreePart& free) {
   FieldMatrix system = free.block(matrices.energy);
   for (Eigen::Index i = 0; i < free.size(); ++i) {
@@ -35,6 +40,13 @@ FieldVector pullSide(const FieldMatrices& matrices, const FieldConditions& condi
 }
 
 }  // namespace
+
+FieldConditions::FieldConditions(std::size_t vertexCount)
+    : pinned(vertexCount, 0),
+      removed(vertexCount, 0),
+      value(FieldVector::Zero(static_cast<Eigen::Index>(vertexCount))),
+      pull(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(vertexCount))),
+      guide(FieldVector::Zero(static_cast<Eigen::Index>(vertexCount))) {}
 
 void normaliseCrosses(FieldVector& field, const FieldVector& fallback) {
   for (Eigen::Index i = 0; i < field.size(); ++i) {
@@ -58,12 +70,27 @@ Result<FieldVector> solveEliminated(const FieldMatrices& matrices, const FieldCo
   return field;
 }
 
+Result<FieldVector> solveLeastSquares(const FieldMatrices& matrices, const FieldConditions& conditions, double shift) {
+  const FreePart free(conditions.pinned);
+  FieldVector field = conditions.value;
+  if (free.size() == 0) return field;
+  const FieldMatrix system = matrices.energy - (shift - smallShift(matrices)) * matrices.mass;
+  FieldVector q = conditions.guide.cwiseProduct(conditions.pull.cast<Complex>());
+  const double length = std::sqrt(q.dot(matrices.mass * q).real());
+  if (length > 0.0) q /= length;
+  const FieldMatrix columns = free.columns(system);
+  const FieldMatrix adjoint = columns.adjoint();
+  const FieldMatrix square = adjoint * columns;
+  FieldFactor factor(square);
+  if (factor.info() != Eigen::Success) return unsolvable();
+  const FieldVector side = matrices.mass * q - system * conditions.value;
+  free.insert(factor.solve(adjoint * side), field);
+  return field;
+}
+
 Result<Smoothest> solveSmoothest(const FieldMatrices& matrices, Progress& progress) {
   const Eigen::Index count = matrices.energy.rows();
-  double scale = 0.0;
-  for (Eigen::Index i = 0; i < count; ++i) scale += matrices.energy.coeff(i, i).real();
-  const double shift = kShift * std::max(scale, 1e-300) / matrices.area.sum();
-  FieldFactor factor(matrices.energy + shift * matrices.mass);
+  FieldFactor factor(matrices.energy + smallShift(matrices) * matrices.mass);
   if (factor.info() != Eigen::Success) return unsolvable();
   Random random(1);
   Smoothest result;

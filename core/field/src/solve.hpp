@@ -11,10 +11,13 @@ namespace qmcf {
 
 /// What the crosses shall be: pinned ones, and directions that others are drawn to.
 struct FieldConditions {
-  std::vector<std::uint8_t> pinned;  ///< Per vertex: 0 free, else why pinned (CrossField::constrained).
-  FieldVector value;                 ///< Per vertex: the cross it is pinned to; 0 where free.
-  Eigen::VectorXd pull;              ///< Per vertex: weight per area of the pull towards `guide`, >= 0.
-  FieldVector guide;                 ///< Per vertex: unit cross; 0 where there is no pull.
+  explicit FieldConditions(std::size_t vertexCount);
+
+  std::vector<std::uint8_t> pinned;   ///< Per vertex: 0 free, else why pinned (CrossField::constrained).
+  std::vector<std::uint8_t> removed;  ///< Per vertex: 1 where a pin was taken back because it contradicted others.
+  FieldVector value;                  ///< Per vertex: the cross it is pinned to; 0 where free.
+  Eigen::VectorXd pull;               ///< Per vertex: weight per area of the pull towards `guide`, >= 0.
+  FieldVector guide;                  ///< Per vertex: unit cross; 0 where there is no pull.
 };
 
 /// How the diffusion is stepped; lengths are in elements.
@@ -26,8 +29,12 @@ struct DiffusionSchedule {
 };
 
 /// Minimises u^H A u plus the pull, with the pinned crosses given.
-/// \pre something is pinned or pulls. Errors: cancelled, internal.
+/// \pre something is pinned or pulls. Errors: internal.
 Result<FieldVector> solveEliminated(const FieldMatrices& matrices, const FieldConditions& conditions);
+
+/// The paper's system (3.2.2): least squares of (A - shift M) u = M q over the unknowns, with every row kept. q is the
+/// guide weighted by the pull, of length 1. \pre something is pinned or pulls. Errors: internal.
+Result<FieldVector> solveLeastSquares(const FieldMatrices& matrices, const FieldConditions& conditions, double shift);
 
 /// The unit vector of least energy where nothing is pinned and nothing pulls, by inverse iteration.
 struct Smoothest {

@@ -28,14 +28,30 @@ struct TangentFrame {
 /// How the constraints enter the linear system (section 3.2.2 of the paper; B1 of docs/algorithm.md).
 enum class FieldSolver : std::uint8_t { eliminate, leastSquares };
 
+/// The discretisation of the energy: cotangent weights, or the full finite elements of Knoeppel et al. (A2, A3).
+enum class FieldEnergy : std::uint8_t { cotangent, finiteElements };
+
+/// A line in space that the field shall follow; a short one gives the direction at a point.
+struct FieldStroke {
+  Vec3 from;
+  Vec3 to;
+};
+
 /// Which constraints apply, and how the field is solved.
 struct FieldOptions {
   bool boundary = true;     ///< Align with boundary edges.
   bool sharp = true;        ///< Align with sharp and label edges.
   bool nonManifold = true;  ///< Align with non-manifold edges.
   bool curvature = true;    ///< Guide by, and pin to, reliable principal curvature directions.
+  /// Align with these lines: pins the vertices within half an element of a line, at least the nearest one if that lies
+  /// within an element. Edges come first; where lines contradict each other, the nearer one holds.
+  std::vector<FieldStroke> strokes;
+  FieldEnergy energy = FieldEnergy::cotangent;
+  double smoothness = 0.0;  ///< s in [-1, 1] from antiholomorphic to holomorphic energy; finiteElements only.
   FieldSolver solver = FieldSolver::eliminate;
-  double guidance = 0.3;         ///< Strength of the curvature's pull, per (k1 - k2)^2; >= 0.
+  bool mask = true;       ///< The paper's alpha: curvature does not guide next to pinned vertices.
+  double shift = 0.0;     ///< lambda of (A - lambda M) u = M q, <= 0: the lower the more curvature; leastSquares only.
+  double guidance = 0.3;  ///< Strength of the curvature's pull, per (k1 - k2)^2; >= 0.
   bool pinCurvature = false;     ///< Pin the reliable curvature directions rather than let them pull alone.
   double pinAnisotropy = 0.7;    ///< Least |k1 - k2| / (|k1| + |k2|) of a reliable direction, in [0, 1].
   double pinTurn = 0.05;         ///< Least turn of the surface across one element, in radians, of a reliable direction.
@@ -51,6 +67,7 @@ struct CrossField {
   IdMap<VertexId, std::complex<double>> cross;  ///< |u| = 1.
   IdMap<VertexId, TangentFrame> frame;
   IdMap<VertexId, std::uint8_t> constrained;  ///< 0 free, 1 boundary or other edge, 2 curvature, 3 user.
+  IdMap<VertexId, std::uint8_t> removed;      ///< 1 where a curvature constraint contradicted its neighbours.
   IdMap<TriangleId, std::int32_t> index;      ///< Quarter turns around each triangle.
   /// Per triangle: the field at its corners as u in the triangle's own frame (x along its first half-edge, normal of
   /// the triangle), continuous across the corners: their barycentric mean interpolates.
@@ -59,7 +76,8 @@ struct CrossField {
   /// boundary curve was cut into chords: there the field follows the tangent at the node and the chord in its middle.
   IdMap<TriangleId, std::array<double, 3>> tangentTurn;
   std::vector<Singularity> singularities;  ///< By triangle.
-  double energy = 0.0;                     ///< Dirichlet energy of the normalised field, half of u^H A u.
+  double eigenvalue = 0.0;  ///< The least one, where nothing is pinned and nothing guides the field; else 0.
+  double energy = 0.0;      ///< Dirichlet energy of the normalised field, half of u^H A u.
 };
 
 /// The four directions of the field at a point, as unit vectors in the triangle's plane, counter-clockwise.
