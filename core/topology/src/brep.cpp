@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "bodies.hpp"
 #include "feature_edges.hpp"
 #include "qmcf/base/math.hpp"
 #include "triangle_edges.hpp"
@@ -22,11 +23,6 @@ namespace {
 
 /// A chain or a face that turns by more than this has a corner: 45 degrees, and a little for round-off.
 constexpr double kCornerTurn = math::kPi / 4.0 + 1e-6;
-/// A dangling chain shorter than this part of the bounding box is noise.
-constexpr double kShortChain = 0.03;
-/// Dihedral angles down to this part of the feature angle continue a sharp chain.
-constexpr double kWeakAngle = 0.6;
-
 /// Quads wanted at a corner; the thresholds favour simple corners, as gmsh's do.
 std::int32_t quadsAtCorner(double angle) {
   const double quarters = 2.0 * angle / math::kPi;
@@ -35,21 +31,14 @@ std::int32_t quadsAtCorner(double angle) {
   return quarters <= 3.5 ? 3 : 4;
 }
 
-double diagonalOf(const TriangleMesh& mesh) {
-  Vec3 low = mesh.positions.front();
-  Vec3 high = low;
-  for (const Vec3& p : mesh.positions) {
-    low = {std::fmin(low.x, p.x), std::fmin(low.y, p.y), std::fmin(low.z, p.z)};
-    high = {std::fmax(high.x, p.x), std::fmax(high.y, p.y), std::fmax(high.z, p.z)};
-  }
-  return distance(low, high);
-}
-
 /// Builds the B-rep from the marked edges of the mesh.
 class BrepBuilder {
  public:
-  BrepBuilder(const TriangleMesh& mesh, const TriangleEdges& edges, const FeatureEdges& features)
-      : mesh_(mesh),
+  BrepBuilder(const TriangleMesh& mesh, const TriangleEdges& edges, const FeatureEdges& features, const Bodies& bodies,
+              const std::vector<std::uint8_t>& scattered)
+      : bodies_(bodies),
+        scattered_(scattered),
+        mesh_(mesh),
         edges_(edges),
         features_(features),
         fans_(buildFans(edges, features.mark)),
@@ -62,7 +51,7 @@ class BrepBuilder {
     numberVertices();
     floodFaces();
     traceLoops();
-    floodBodies();
+    listBodies();
     nameFaces();
     return std::move(brep_);
   }
@@ -96,7 +85,8 @@ class BrepBuilder {
     for (std::size_t v = 0; v < role_.size(); ++v) {
       const auto around = around_.at(VertexId(v));
       if (around.empty()) continue;
-      if (around.size() != 2 || !continuesAt(VertexId(v), around[0], around[1])) role_[v] = Role::vertex;
+      const bool passes = around.size() == 2 && continuesAt(VertexId(v), around[0], around[1]);
+      if (!passes && !isZigzag(VertexId(v))) role_[v] = Role::vertex;
     }
     // Fans decide as well: a corner of a face, and a face that touches the vertex otherwise than along both edges.
     for (std::size_t fan = 0; fan < fans_.first.size(); ++fan) {
@@ -104,7 +94,8 @@ class BrepBuilder {
       const std::size_t v = edges_.origin(first).index();
       if (around_.at(VertexId(v)).empty()) continue;
       const bool passes = fans_.open[fan] && edges_.edge(first) != edges_.edge(fanLast_[fan]);
-      if (!passes || std::fabs(fanAngle_[fan] - math::kPi) > kCornerTurn) role_[v] = Role::vertex;
+      const bool straight = std::fabs(fanAngle_[fan] - math::kPi) <= kCornerTurn || isZigzag(VertexId(v));
+      if (!passes || !straight) role_[v] = Role::vertex;
     }
   }
 
@@ -114,10 +105,29 @@ class BrepBuilder {
       // A crease may fade along a label's border.
       return features_.is(e, EdgeKind::label) ? EdgeKind::sharp : features_.kind(e);
     };
-    if (kindOf(a) != kindOf(b)) return false;
-    const Vec3 in = at(v) - at(edges_.otherEnd(a, v));
-    const Vec3 out = at(edges_.otherEnd(b, v)) - at(v);
-    return math::atan2(norm(cross(in, out)), dot(in, out)) <= kCornerTurn;
+    return kindOf(a) == kindOf(b) && turning(edges_.otherEnd(a, v), v, edges_.otherEnd(b, v)) <= kCornerTurn;
+  }
+
+  [[nodiscard]] double turning(VertexId from, VertexId v, VertexId to) const {
+    const Vec3 in = at(v) - at(from);
+    const Vec3 out = at(to) - at(v);
+    return math::atan2(norm(cross(in, out)), dot(in, out));
+  }
+
+  /// The borders of a scan zigzag from triangle to triangle. There, a vertex where two edges of a kind meet is no
+  /// corner when the line through every second vertex goes straight on.
+  [[nodiscard]] bool isZigzag(VertexId v) const {
+    const auto around = around_.at(v);
+    if (around.size() != 2 || features_.kind(around[0]) != features_.kind(around[1])) return false;
+    if (scattered_[bodies_.of(edges_, around[0])] == 0) return false;
+    std::array<VertexId, 2> second;
+    for (std::size_t i = 0; i < 2; ++i) {
+      const VertexId first = edges_.otherEnd(around[i], v);
+      const auto further = around_.at(first);
+      if (further.size() != 2) return false;
+      second[i] = edges_.otherEnd(further[0] == around[i] ? further[1] : further[0], first);
+    }
+    return turning(second[0], v, second[1]) <= kCornerTurn;
   }
 
   void traceEdges() {
@@ -171,35 +181,12 @@ class BrepBuilder {
     }
   }
 
-  /// Labels everything reachable from `root` through edges with cross[e] == 0 (or through all when cross is null).
-  template <class Visit>
-  void flood(TriangleId root, const IdMap<EdgeId, std::uint8_t>* barrier, std::vector<std::int32_t>& label,
-             std::int32_t value, Visit visit) const {
-    std::vector<TriangleId> stack{root};
-    label[root.index()] = value;
-    while (!stack.empty()) {
-      const TriangleId t = stack.back();
-      stack.pop_back();
-      visit(t);
-      for (int c = 0; c < 3; ++c) {
-        const EdgeId e = edges_.edge(Surface::halfedge(t, c));
-        if (barrier != nullptr && (*barrier)[e] != 0) continue;
-        for (const HalfedgeId g : edges_.uses(e)) {
-          const TriangleId u = Surface::triangle(g);
-          if (label[u.index()] != kNone) continue;
-          label[u.index()] = value;
-          stack.push_back(u);
-        }
-      }
-    }
-  }
-
   void floodFaces() {
     brep_.triangleFace.assign(mesh_.triangles.size(), kNone);
     for (const TriangleId root : edges_.triangles()) {
       if (brep_.triangleFace[root.index()] != kNone) continue;
       BrepFace face;
-      flood(root, &features_.mark, brep_.triangleFace, static_cast<std::int32_t>(brep_.faces.size()),
+      flood(edges_, root, &features_.mark, brep_.triangleFace, static_cast<std::int32_t>(brep_.faces.size()),
             [&](TriangleId t) { face.triangles.push_back(t.value); });
       std::sort(face.triangles.begin(), face.triangles.end());
       for (const std::int32_t t : face.triangles) {
@@ -237,23 +224,11 @@ class BrepBuilder {
     }
   }
 
-  void floodBodies() {
-    std::vector<std::int32_t> body(mesh_.triangles.size(), kNone);
-    for (const TriangleId root : edges_.triangles()) {
-      if (body[root.index()] != kNone) continue;
-      const auto id = static_cast<std::int32_t>(brep_.bodies.size());
-      BrepBody added;
-      added.closed = true;
-      flood(root, nullptr, body, id, [&](TriangleId t) {
-        for (int c = 0; c < 3; ++c) {
-          if (edges_.uses(edges_.edge(Surface::halfedge(t, c))).size() == 1) added.closed = false;
-        }
-      });
-      brep_.bodies.push_back(std::move(added));
-    }
+  void listBodies() {
+    for (const std::uint8_t closed : bodies_.closed) brep_.bodies.push_back({{}, closed != 0});
     for (std::size_t f = 0; f < brep_.faces.size(); ++f) {
       BrepFace& face = brep_.faces[f];
-      face.body = body[static_cast<std::size_t>(face.triangles.front())];
+      face.body = bodies_.ofTriangle[static_cast<std::size_t>(face.triangles.front())];
       brep_.bodies[static_cast<std::size_t>(face.body)].faces.push_back(static_cast<std::int32_t>(f));
     }
   }
@@ -291,6 +266,8 @@ class BrepBuilder {
     }
   }
 
+  const Bodies& bodies_;
+  const std::vector<std::uint8_t>& scattered_;
   const TriangleMesh& mesh_;
   const TriangleEdges& edges_;
   const FeatureEdges& features_;
@@ -316,10 +293,10 @@ Result<Brep> recoverBrep(const TriangleMesh& mesh, const BrepOptions& options, P
   const double featureAngle = options.featureAngle * math::kPi / 180.0;
   detail::FeatureEdges features = detail::markFeatureEdges(mesh, edges, featureAngle);
   if (!progress.report(Stage::topology, 0.5)) return cancelledError();
-  const detail::ChainLimits limits{detail::kWeakAngle * featureAngle, detail::kShortChain * detail::diagonalOf(mesh)};
-  detail::cleanFeatureChains(mesh, edges, limits, features);
+  const detail::Bodies bodies = detail::findBodies(mesh, edges);
+  const auto scattered = detail::cleanFeatureChains(mesh, edges, bodies, featureAngle, features);
   if (!progress.report(Stage::topology, 0.7)) return cancelledError();
-  return detail::BrepBuilder(mesh, edges, features).build();
+  return detail::BrepBuilder(mesh, edges, features, bodies, scattered).build();
 }
 
 }  // namespace qmcf

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <optional>
 
+#include "bodies.hpp"
 #include "feature_edges.hpp"
 
 namespace qmcf::detail {
@@ -12,10 +13,93 @@ constexpr double kStraight = 0.766;
 /// Weak edges in a row that a chain may be continued by.
 constexpr std::size_t kLongestExtension = 64;
 
+/// Dihedral angles down to this part of the angle that makes an edge sharp may continue a chain.
+constexpr double kWeakAngle = 0.6;
+/// A dangling chain shorter than this part of its body's diagonal is noise; in a scattered body, the larger part.
+constexpr double kShortChain = 0.03;
+constexpr double kShortScatteredChain = 0.1;
+/// A body is scattered when its sharp edges have at least this many loose ends, and one per this many edges.
+constexpr std::int64_t kManyLooseEnds = 8;
+constexpr std::int64_t kEdgesPerLooseEnd = 12;
+
+/// In a scattered body, a patch smaller than the square of this part of the diagonal is noise.
+constexpr double kSmallPatch = 0.05;
+
+/// What counts as a chain in one body.
+struct BodyLimits {
+  double strongAngle = 0.0;
+  double weakAngle = 0.0;
+  double shortLength = 0.0;
+  double smallArea = 0.0;
+};
+
+BodyLimits limitsOf(double diagonal, double featureAngle, bool scattered) {
+  BodyLimits limits;
+  limits.strongAngle = scattered ? 2.0 * featureAngle : featureAngle;
+  limits.weakAngle = kWeakAngle * limits.strongAngle;
+  limits.shortLength = (scattered ? kShortScatteredChain : kShortChain) * diagonal;
+  limits.smallArea = scattered ? kSmallPatch * kSmallPatch * diagonal * diagonal : 0.0;
+  return limits;
+}
+
+std::vector<std::uint8_t> findScattered(const Bodies& bodies, const TriangleEdges& edges,
+                                        const FeatureEdges& features) {
+  std::vector<std::int64_t> sharp(bodies.count(), 0);
+  std::vector<std::int64_t> loose(bodies.count(), 0);
+  std::vector<std::int32_t> valence(edges.vertexCount(), 0);
+  for (const EdgeId e : edges.edges()) {
+    if (features.mark[e] == 0) continue;
+    for (const VertexId v : edges.ends(e)) ++valence[v.index()];
+  }
+  for (const EdgeId e : edges.edges()) {
+    if (!features.is(e, EdgeKind::sharp)) continue;
+    const std::size_t body = bodies.of(edges, e);
+    ++sharp[body];
+    for (const VertexId v : edges.ends(e)) loose[body] += valence[v.index()] == 1 ? 1 : 0;
+  }
+  std::vector<std::uint8_t> scattered(bodies.count(), 0);
+  for (std::size_t b = 0; b < bodies.count(); ++b) {
+    scattered[b] = loose[b] >= kManyLooseEnds && kEdgesPerLooseEnd * loose[b] >= sharp[b] ? 1 : 0;
+  }
+  return scattered;
+}
+
+/// Removes the sharp marks around patches that are smaller than their body allows.
+void joinSmallPatches(const TriangleMesh& mesh, const TriangleEdges& edges, const Bodies& bodies,
+                      const std::vector<BodyLimits>& limits, FeatureEdges& features) {
+  std::vector<std::int32_t> patchOf(mesh.triangles.size(), kNone);
+  std::vector<double> area;
+  for (const TriangleId root : edges.triangles()) {
+    if (patchOf[root.index()] != kNone) continue;
+    double sum = 0.0;
+    flood(edges, root, &features.mark, patchOf, static_cast<std::int32_t>(area.size()), [&](TriangleId t) {
+      const auto& c = mesh.triangles[t.index()];
+      const Vec3& p = mesh.positions[static_cast<std::size_t>(c[0])];
+      sum += 0.5 * norm(cross(mesh.positions[static_cast<std::size_t>(c[1])] - p,
+                              mesh.positions[static_cast<std::size_t>(c[2])] - p));
+    });
+    area.push_back(sum);
+  }
+  for (const EdgeId e : edges.edges()) {
+    if (!features.is(e, EdgeKind::sharp)) continue;
+    const double smallArea = limits[bodies.of(edges, e)].smallArea;
+    for (const HalfedgeId h : edges.uses(e)) {
+      const auto patch = static_cast<std::size_t>(patchOf[Surface::triangle(h).index()]);
+      if (area[patch] < smallArea) features.mark[e] = 0;
+    }
+  }
+}
+
 class Chains {
  public:
-  Chains(const TriangleMesh& mesh, const TriangleEdges& edges, FeatureEdges& features, const ChainLimits& limits)
-      : mesh_(mesh), edges_(edges), features_(features), limits_(limits), around_(edges, candidates()) {
+  Chains(const TriangleMesh& mesh, const TriangleEdges& edges, FeatureEdges& features, const Bodies& bodies,
+         const std::vector<BodyLimits>& limits)
+      : mesh_(mesh),
+        edges_(edges),
+        features_(features),
+        bodies_(bodies),
+        limits_(limits),
+        around_(edges, candidates()) {
     valence_.assign(mesh.positions.size(), 0);
     for (const EdgeId e : edges.edges()) {
       if (features.mark[e] != 0) changeValence(e, 1);
@@ -52,10 +136,12 @@ class Chains {
   }
 
  private:
+  [[nodiscard]] const BodyLimits& limitsOf(EdgeId e) const { return limits_[bodies_.of(edges_, e)]; }
+
   [[nodiscard]] IdMap<EdgeId, std::uint8_t> candidates() const {
     IdMap<EdgeId, std::uint8_t> keep = features_.mark;
     for (const EdgeId e : edges_.edges()) {
-      if (features_.dihedral[e] >= limits_.weakAngle) keep[e] = 1;
+      if (features_.dihedral[e] >= limitsOf(e).weakAngle) keep[e] = 1;
     }
     return keep;
   }
@@ -114,9 +200,10 @@ class Chains {
   /// loose ends: that could not be cut open.
   void collectIfShort(VertexId v, EdgeId first, std::vector<EdgeId>& dropped) const {
     std::vector<EdgeId> chain;
+    const double shortLength = limitsOf(first).shortLength;
     double length = 0.0;
     EdgeId e = first;
-    while (e.valid() && length < limits_.shortLength) {
+    while (e.valid() && length < shortLength) {
       chain.push_back(e);
       length += norm(along(e, v));
       v = edges_.otherEnd(e, v);
@@ -130,24 +217,42 @@ class Chains {
       e = next;
     }
     const bool single = chain.size() == 1 && valence_[v.index()] == 1;
-    if (length < limits_.shortLength || single) dropped.insert(dropped.end(), chain.begin(), chain.end());
+    if (length < shortLength || single) dropped.insert(dropped.end(), chain.begin(), chain.end());
   }
 
   const TriangleMesh& mesh_;
   const TriangleEdges& edges_;
   FeatureEdges& features_;
-  const ChainLimits& limits_;
+  const Bodies& bodies_;
+  const std::vector<BodyLimits>& limits_;
   VertexEdges around_;
   std::vector<int> valence_;
 };
 
 }  // namespace
 
-void cleanFeatureChains(const TriangleMesh& mesh, const TriangleEdges& edges, const ChainLimits& limits,
-                        FeatureEdges& features) {
-  Chains chains(mesh, edges, features, limits);
-  chains.extend();
-  chains.prune();
+std::vector<std::uint8_t> cleanFeatureChains(const TriangleMesh& mesh, const TriangleEdges& edges, const Bodies& bodies,
+                                             double featureAngle, FeatureEdges& features) {
+  std::vector<std::uint8_t> scattered = findScattered(bodies, edges, features);
+  std::vector<BodyLimits> limits;
+  for (std::size_t b = 0; b < bodies.count(); ++b) {
+    limits.push_back(limitsOf(bodies.diagonal[b], featureAngle, scattered[b] != 0));
+  }
+  for (const EdgeId e : edges.edges()) {
+    if (features.is(e, EdgeKind::sharp) && features.dihedral[e] < limits[bodies.of(edges, e)].strongAngle) {
+      features.mark[e] = 0;
+    }
+  }
+  {
+    Chains chains(mesh, edges, features, bodies, limits);
+    chains.extend();
+    chains.prune();
+  }
+  if (std::find(scattered.begin(), scattered.end(), 1) != scattered.end()) {
+    joinSmallPatches(mesh, edges, bodies, limits, features);
+    Chains(mesh, edges, features, bodies, limits).prune();
+  }
+  return scattered;
 }
 
 }  // namespace qmcf::detail

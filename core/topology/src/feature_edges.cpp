@@ -5,6 +5,7 @@
 #include <limits>
 #include <queue>
 
+#include "bounding_box.hpp"
 #include "qmcf/base/math.hpp"
 
 namespace qmcf::detail {
@@ -16,18 +17,14 @@ const Vec3& point(const TriangleMesh& mesh, VertexId v) { return mesh.positions[
 /// such numbers, and six digits of the size of the part in any case.
 double coordinateNoise(const TriangleMesh& mesh) {
   bool single = true;
-  Vec3 low = mesh.positions.front();
-  Vec3 high = low;
+  BoundingBox box;
   for (const Vec3& p : mesh.positions) {
     for (const double x : {p.x, p.y, p.z}) single = single && static_cast<double>(static_cast<float>(x)) == x;
-    low = {std::fmin(low.x, p.x), std::fmin(low.y, p.y), std::fmin(low.z, p.z)};
-    high = {std::fmax(high.x, p.x), std::fmax(high.y, p.y), std::fmax(high.z, p.z)};
+    box.include(p);
   }
-  const double largest =
-      std::fmax(std::fmax(std::fmax(-low.x, high.x), std::fmax(-low.y, high.y)), std::fmax(-low.z, high.z));
   const double epsilon =
       single ? static_cast<double>(std::numeric_limits<float>::epsilon()) : std::numeric_limits<double>::epsilon();
-  return std::fmax(2e-7 * distance(low, high), 4.0 * epsilon * largest);
+  return std::fmax(2e-7 * box.diagonal(), 4.0 * epsilon * box.largestCoordinate());
 }
 
 /// A triangle's normal is trusted when noise turns it by less than 1 / kTrust radians.

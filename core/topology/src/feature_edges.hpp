@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "bodies.hpp"
 #include "qmcf/mesh/triangle_mesh.hpp"
 #include "qmcf/topology/brep.hpp"
 #include "triangle_edges.hpp"
@@ -24,15 +25,13 @@ struct FeatureEdges {
 /// Marks boundary, non-manifold, sharp and label edges one by one. featureAngle in radians.
 FeatureEdges markFeatureEdges(const TriangleMesh& mesh, const TriangleEdges& edges, double featureAngle);
 
-/// Lengths that chains are judged by, in units of the model.
-struct ChainLimits {
-  double weakAngle = 0.0;    ///< Dihedral angle in radians from which an edge may continue a sharp chain.
-  double shortLength = 0.0;  ///< Sharp chains with a loose end that are shorter are dropped.
-};
-
-/// Continues sharp chains that end inside a face along weaker edges where that leads to another edge, then drops the
-/// short chains that still end inside a face.
-void cleanFeatureChains(const TriangleMesh& mesh, const TriangleEdges& edges, const ChainLimits& limits,
-                        FeatureEdges& features);
+/// Cleans the sharp chains of each body (connected component), with lengths relative to the body:
+/// chains that end inside a face are continued along weaker edges where that leads to another edge; short chains that
+/// still end inside a face are dropped. In a body whose sharp edges are scattered instead of forming chains (a scan, a
+/// sculpted model) the tessellation of high curvature was mistaken for creases: only edges of twice the angle count
+/// there, and small patches between them are joined to their neighbours.
+/// featureAngle in radians, as given to markFeatureEdges(). Returns, per body, whether it is such a scattered one.
+std::vector<std::uint8_t> cleanFeatureChains(const TriangleMesh& mesh, const TriangleEdges& edges, const Bodies& bodies,
+                                             double featureAngle, FeatureEdges& features);
 
 }  // namespace qmcf::detail

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bounding_box.hpp"
 #include "qmcf/base/math.hpp"
 #include "repair_state.hpp"
 #include "triangle_edges.hpp"
@@ -15,8 +16,7 @@ struct Patch {
   std::int64_t turned = 0;  ///< Triangles whose flag `turn` is set.
   bool closed = true;       ///< Its directed edges cancel: it bounds a volume.
   double volume = 0.0;      ///< Six times the signed volume, when closed.
-  Vec3 low;
-  Vec3 high;
+  BoundingBox box;
 };
 
 struct Orientation {
@@ -98,21 +98,12 @@ std::array<Vec3, 3> cornersOf(const TriangleMesh& mesh, std::int32_t t, bool tur
 }
 
 void measure(const TriangleMesh& mesh, const Orientation& orientation, Patch& patch) {
-  patch.low = patch.high = cornersOf(mesh, patch.triangles.front(), false)[0];
-  const Vec3 origin = patch.low;
+  const Vec3 origin = cornersOf(mesh, patch.triangles.front(), false)[0];
   for (const std::int32_t t : patch.triangles) {
     const auto p = cornersOf(mesh, t, orientation.turn[static_cast<std::size_t>(t)] != 0);
     patch.volume += dot(p[0] - origin, cross(p[1] - origin, p[2] - origin));
-    for (const Vec3& q : p) {
-      patch.low = {std::fmin(patch.low.x, q.x), std::fmin(patch.low.y, q.y), std::fmin(patch.low.z, q.z)};
-      patch.high = {std::fmax(patch.high.x, q.x), std::fmax(patch.high.y, q.y), std::fmax(patch.high.z, q.z)};
-    }
+    for (const Vec3& q : p) patch.box.include(q);
   }
-}
-
-bool boxContains(const Patch& outer, const Patch& inner) {
-  return outer.low.x <= inner.low.x && outer.low.y <= inner.low.y && outer.low.z <= inner.low.z &&
-         outer.high.x >= inner.high.x && outer.high.y >= inner.high.y && outer.high.z >= inner.high.z;
 }
 
 /// How often the patch winds around the point: sum of the solid angles (van Oosterom and Strackee 1983) over 4 pi.
@@ -141,7 +132,7 @@ bool isCavity(const TriangleMesh& mesh, const Orientation& orientation, const Pa
   const Vec3 point = (corners[0] + corners[1] + corners[2]) / 3.0;
   int depth = 0;
   for (const Patch& outer : orientation.patches) {
-    if (&outer == &patch || !outer.closed || !boxContains(outer, patch)) continue;
+    if (&outer == &patch || !outer.closed || !outer.box.contains(patch.box)) continue;
     budget -= static_cast<std::int64_t>(outer.triangles.size());
     if (budget < 0) return true;
     if (std::fabs(windingNumber(mesh, orientation, outer, point)) > 0.5) ++depth;

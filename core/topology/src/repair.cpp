@@ -9,6 +9,7 @@
 #include <numeric>
 #include <string>
 
+#include "bounding_box.hpp"
 #include "qmcf/mesh/ids.hpp"
 #include "repair_state.hpp"
 
@@ -129,19 +130,13 @@ Result<Done> checkInput(const TriangleMesh& input) {
 
 void measure(RepairState& state) {
   const TriangleMesh& mesh = state.mesh;
-  Vec3 low = mesh.positions[static_cast<std::size_t>(mesh.triangles.front()[0])];
-  Vec3 high = low;
+  BoundingBox box;
   for (const auto& corners : mesh.triangles) {
-    for (const std::int32_t v : corners) {
-      const Vec3& p = mesh.positions[static_cast<std::size_t>(v)];
-      low = {std::fmin(low.x, p.x), std::fmin(low.y, p.y), std::fmin(low.z, p.z)};
-      high = {std::fmax(high.x, p.x), std::fmax(high.y, p.y), std::fmax(high.z, p.z)};
-    }
+    for (const std::int32_t v : corners) box.include(mesh.positions[static_cast<std::size_t>(v)]);
   }
-  const double largest =
-      std::fmax(std::fmax(std::fmax(-low.x, high.x), std::fmax(-low.y, high.y)), std::fmax(-low.z, high.z));
-  state.diagonal = distance(low, high);
-  state.precision = std::fmax(1e-9 * state.diagonal, 4.0 * std::numeric_limits<double>::epsilon() * largest);
+  state.diagonal = box.diagonal();
+  state.precision =
+      std::fmax(1e-9 * state.diagonal, 4.0 * std::numeric_limits<double>::epsilon() * box.largestCoordinate());
 }
 
 /// The passes in their order; \pre the input was checked.

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "qmcf/base/math.hpp"
+#include "qmcf/base/random.hpp"
 #include "topology/shapes.hpp"
 
 namespace qmcf {
@@ -274,6 +275,26 @@ TEST(Brep, LongCreaseThatFadesOutStaysAsASlit) {
   ASSERT_EQ(edgesOfKind(brep, EdgeKind::sharp), 1U);
   ASSERT_EQ(brep.faces[0].loops.size(), 1U);
   EXPECT_EQ(brep.faces[0].loops[0].coedges.size(), 7U);
+}
+
+TEST(Brep, NoiseOnASmoothSurfaceMakesNoFaces) {
+  // Rough enough that many single edges are above the feature angle, here and there.
+  TriangleMesh mesh = shapes::torus(90, 45, 3.0, 1.0);
+  Random random(3);
+  for (Vec3& p : mesh.positions) {
+    p = p + Vec3{random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0)} * 0.025;
+  }
+  int above = 0;
+  const Surface surface = Surface::build(mesh.positions, mesh.triangles).value();
+  for (const HalfedgeId h : surface.halfedges()) {
+    const Vec3 a = normalized(surface.areaVector(Surface::triangle(h)));
+    const Vec3 b = normalized(surface.areaVector(Surface::triangle(surface.twin(h))));
+    above += dot(a, b) < math::cos(kPi / 6.0) ? 1 : 0;
+  }
+  EXPECT_GT(above, 100);
+  const Brep brep = checkedBrep(mesh);
+  EXPECT_EQ(brep.faces.size(), 1U);
+  EXPECT_TRUE(brep.edges.empty());
 }
 
 TEST(Brep, SliverBesideACreaseBelongsToOneSide) {
