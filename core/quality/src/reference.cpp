@@ -5,6 +5,7 @@
 #include <bit>
 #include <utility>
 
+#include "qmcf/base/bits.hpp"
 #include "qmcf/base/math.hpp"
 #include "screening.hpp"
 
@@ -20,7 +21,7 @@ std::uint64_t hashOf(const Vec3& p) {
   std::uint64_t h = 0;
   for (const double x : {p.x, p.y, p.z}) {
     // Adding 0 makes -0 and 0 the same.
-    h = (h ^ std::bit_cast<std::uint64_t>(x + 0.0)) * 0x9E3779B97F4A7C15ULL;
+    h = (h ^ bitCast<std::uint64_t>(x + 0.0)) * 0x9E3779B97F4A7C15ULL;
     h ^= h >> 29U;
   }
   return h;

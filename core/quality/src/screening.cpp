@@ -58,7 +58,9 @@ std::vector<std::int64_t> findDuplicates(const std::vector<Element>& elements,
   struct Key {
     Element sorted;
     std::int32_t element;
-    auto operator<=>(const Key&) const = default;
+    bool operator<(const Key& other) const {
+      return sorted != other.sorted ? sorted < other.sorted : element < other.element;
+    }
   };
   std::vector<Key> keys;
   keys.reserve(elements.size());

@@ -46,7 +46,8 @@ class SegmentGrid {
   struct Entry {
     std::uint64_t key = 0;
     std::uint32_t segment = 0;
-    auto operator<=>(const Entry&) const = default;
+    bool operator<(const Entry& other) const { return key != other.key ? key < other.key : segment < other.segment; }
+    bool operator==(const Entry& other) const { return key == other.key && segment == other.segment; }
   };
 
   [[nodiscard]] Cell cellOf(const Vec3& point) const;
