@@ -199,7 +199,11 @@ Patch makeCylinder(int around, int along, double height, double twist) {
     const double a = 2.0 * kPi * x + twist * y;
     return Vec3{std::cos(a), std::sin(a), height * y};
   };
-  return makeGrid({.nx = around, .ny = along, .closedX = true, .map = map, .keep = {}}, 2.0 * kPi / around);
+  Patch patch = makeGrid({.nx = around, .ny = along, .closedX = true, .map = map, .keep = {}}, 2.0 * kPi / around);
+  for (const VertexId v : patch.surface.vertices()) {
+    patch.normal[v] = normalized(tangentPart(patch.surface.position(v), {0.0, 0.0, 1.0}));
+  }
+  return patch;
 }
 
 Patch makeCone(int around, int along, double height, double top) {
@@ -208,7 +212,12 @@ Patch makeCone(int around, int along, double height, double top) {
     const double r = 1.0 + (top - 1.0) * y;
     return Vec3{r * std::cos(a), r * std::sin(a), height * y};
   };
-  return makeGrid({.nx = around, .ny = along, .closedX = true, .map = map, .keep = {}}, 2.0 * kPi / around);
+  Patch patch = makeGrid({.nx = around, .ny = along, .closedX = true, .map = map, .keep = {}}, 2.0 * kPi / around);
+  for (const VertexId v : patch.surface.vertices()) {
+    const Vec3 radial = normalized(tangentPart(patch.surface.position(v), {0.0, 0.0, 1.0}));
+    patch.normal[v] = normalized(radial * height + Vec3{0.0, 0.0, 1.0 - top});
+  }
+  return patch;
 }
 
 Patch transformed(const Patch& patch, const std::function<Vec3(const Vec3&)>& move) {

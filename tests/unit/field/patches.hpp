@@ -36,9 +36,9 @@ Patch makePolygonRing(int sides, int cells, int layers, bool roundHole);
 Patch makeSphere(int cells);
 /// The torus of radii 1 and `tube`.
 Patch makeTorus(int around, int along, double tube = 0.4);
-/// The tube of radius 1 and the given height around z, turned helically by `twist` radians along it.
+/// The tube of radius 1 and the given height around z, turned helically by `twist` radians along it. Exact normals.
 Patch makeCylinder(int around, int along, double height, double twist = 0.0);
-/// A cone from radius 1 at z = 0 to `top` at the given height.
+/// A cone from radius 1 at z = 0 to `top` at the given height. Exact normals.
 Patch makeCone(int around, int along, double height, double top);
 
 /// The same patch moved in space.
