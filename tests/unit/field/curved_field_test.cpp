@@ -27,9 +27,11 @@ CrossField solve(const Patch& patch, const FieldOptions& options = {}) {
 double deviation(const Patch& patch, const CrossField& field, TriangleId t, const Vec3& direction) {
   const SurfacePoint centre{t, {1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0}};
   const Vec3 d = normalized(tangentPart(direction, normalized(patch.surface.areaVector(t))));
-  double best = 0.0;
-  for (const Vec3& branch : crossDirections(patch.surface, field, centre)) best = std::max(best, dot(branch, d));
-  return std::acos(std::min(best, 1.0)) / kDegree;
+  double best = 180.0;
+  for (const Vec3& branch : crossDirections(patch.surface, field, centre)) {
+    best = std::min(best, std::atan2(norm(cross(branch, d)), dot(branch, d)) / kDegree);
+  }
+  return best;
 }
 
 double largestDeviation(const Patch& patch, const CrossField& field, const std::function<Vec3(const Vec3&)>& axis) {
@@ -163,7 +165,8 @@ TEST(CurvedField, DoesNotDependOnTheOrderOfVerticesAndTriangles) {
       corners[c] = vertexOrder[surface.corners(t)[(first + c) % 3].index()];
     }
   }
-  const Patch shuffled = testing::makePatch(positions, triangles, patch.size[VertexId(0)]);
+  Patch shuffled = testing::makePatch(positions, triangles, patch.size[VertexId(0)]);
+  for (const VertexId v : surface.vertices()) shuffled.normal[VertexId(vertexOrder[v.index()])] = patch.normal[v];
   const auto stay = [](const Vec3& p) { return p; };
   EXPECT_LT(largestDifference(patch, solve(patch), shuffled, solve(shuffled), triangleOrder, stay), 1e-6);
 }
