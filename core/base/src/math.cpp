@@ -10,8 +10,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 #include <limits>
+
+#include "qmcf/base/bits.hpp"
 
 namespace qmcf::math {
 namespace {
@@ -25,15 +26,6 @@ constexpr double kHalfPiLow = 6.12323399573676603587e-17;
 constexpr double kPiLow = 1.2246467991473531772e-16;
 constexpr double kLn2High = 6.93147180369123816490e-01;
 constexpr double kLn2Low = 1.90821492927058770002e-10;
-
-/// std::bit_cast, which libc++ lacks before version 14.
-template <class To, class From>
-To bitCast(const From& from) {
-  static_assert(sizeof(To) == sizeof(From));
-  To to;
-  std::memcpy(&to, &from, sizeof(To));
-  return to;
-}
 
 /// x without the lower half of its significand, so that its square is exact.
 double upperHalf(double x) { return bitCast<double>(bitCast<std::uint64_t>(x) & 0xFFFFFFFF00000000ULL); }

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <string>
 
+#include "qmcf/base/bits.hpp"
 #include "text_cursor.hpp"
 
 namespace qmcf {
@@ -68,7 +68,7 @@ bool looksLikeBinaryStl(std::string_view bytes) {
   for (std::size_t record = 0; record < records; ++record) {
     for (std::size_t value = 0; value < 12; ++value) {
       const std::size_t offset = kStlHeader + record * kStlRecord + 4 * value;
-      const double magnitude = std::fabs(static_cast<double>(std::bit_cast<float>(uint32At(bytes, offset))));
+      const double magnitude = std::fabs(static_cast<double>(bitCast<float>(uint32At(bytes, offset))));
       if (magnitude != 0.0 && !(magnitude > 1e-35 && magnitude < 1e30)) return false;
     }
   }

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -13,6 +12,7 @@
 
 #include "ply_header.hpp"
 #include "polygon_soup.hpp"
+#include "qmcf/base/bits.hpp"
 #include "text_cursor.hpp"
 
 namespace qmcf {
@@ -91,10 +91,10 @@ ValueState ValueReader::nextBinary(PlyType type, double& value) {
       value = static_cast<double>(static_cast<std::int32_t>(bits));
       break;
     case PlyType::float32:
-      value = static_cast<double>(std::bit_cast<float>(static_cast<std::uint32_t>(bits)));
+      value = static_cast<double>(bitCast<float>(static_cast<std::uint32_t>(bits)));
       break;
     case PlyType::float64:
-      value = std::bit_cast<double>(bits);
+      value = bitCast<double>(bits);
       break;
     case PlyType::uint8:
     case PlyType::uint16:

@@ -1,13 +1,13 @@
 // Stereolithography files, ASCII and binary. Every triangle keeps three vertices of its own: welding is repair's task.
 
 #include <array>
-#include <bit>
 #include <cmath>
 #include <cstring>
 #include <string>
 #include <utility>
 
 #include "polygon_soup.hpp"
+#include "qmcf/base/bits.hpp"
 #include "text_cursor.hpp"
 
 namespace qmcf {
@@ -163,7 +163,7 @@ std::uint32_t littleEndian32(const char* bytes) {
          static_cast<std::uint32_t>(b[2]) << 16U | static_cast<std::uint32_t>(b[3]) << 24U;
 }
 
-double coordinateAt(const char* bytes) { return static_cast<double>(std::bit_cast<float>(littleEndian32(bytes))); }
+double coordinateAt(const char* bytes) { return static_cast<double>(bitCast<float>(littleEndian32(bytes))); }
 
 }  // namespace
 

@@ -8,7 +8,11 @@
 
 namespace qmcf {
 
-/// Appends to a text. Numbers take the shortest form that reads back as the same value, the same on every platform.
+/// A short decimal form of a finite number that reads back as the same value, the same on every platform (std::to_chars
+/// is missing in the oldest supported libc++).
+std::string shortText(double value);
+
+/// Appends to a text, numbers as shortText() gives them.
 class TextWriter {
  public:
   TextWriter& operator<<(std::string_view text) {

@@ -1,7 +1,7 @@
-#include <bit>
 #include <string>
 
 #include "mesh_writers.hpp"
+#include "qmcf/base/bits.hpp"
 #include "text_writer.hpp"
 
 namespace qmcf {
@@ -13,9 +13,9 @@ void appendLittleEndian(std::string& out, Bits bits) {
 }
 
 void appendInt(std::string& out, std::int32_t value) { appendLittleEndian(out, static_cast<std::uint32_t>(value)); }
-void appendDouble(std::string& out, double value) { appendLittleEndian(out, std::bit_cast<std::uint64_t>(value)); }
+void appendDouble(std::string& out, double value) { appendLittleEndian(out, bitCast<std::uint64_t>(value)); }
 void appendFloat(std::string& out, double value) {
-  appendLittleEndian(out, std::bit_cast<std::uint32_t>(static_cast<float>(value)));
+  appendLittleEndian(out, bitCast<std::uint32_t>(static_cast<float>(value)));
 }
 
 std::string plyHeader(const QuadMesh& mesh, const GroupNames& names, std::size_t segments) {

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
+#include <cstdio>
 #include <string>
 #include <vector>
 
@@ -18,11 +18,8 @@ namespace {
 std::string fittedNumber(double value, std::size_t width, bool exponentLetter) {
   std::array<char, 40> digits{};
   const auto text = [&](int precision) {
-    const auto end = precision < 0 ? std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr
-                                   : std::to_chars(digits.data(), digits.data() + digits.size(), value,
-                                                   std::chars_format::scientific, precision)
-                                         .ptr;
-    std::string result(digits.data(), end);
+    if (precision >= 0) std::snprintf(digits.data(), digits.size(), "%.*e", precision, value);
+    std::string result = precision < 0 ? shortText(value) : std::string(digits.data());
     const std::size_t exponent = result.find('e');
     const std::size_t point = result.find('.');
     if (point == std::string::npos) result.insert(std::min(exponent, result.size()), ".");
