@@ -1,0 +1,23 @@
+#pragma once
+
+#include "prepare.hpp"
+#include "qmcf/mesh/face_mesh.hpp"
+#include "qmcf/pipeline/mesh_surface.hpp"
+
+namespace qmcf {
+
+/// One face meshed by the first step of the ladder that gives a valid mesh, and how.
+struct MeshedFace {
+  FaceMesh mesh;
+  FaceReport report;
+};
+
+/// Advancing front and clean-up; if an element is turned over in the result, the paired triangles of the background;
+/// failing that, the triangles themselves (H 8 of docs/algorithm.md). Errors: cancelled.
+Result<MeshedFace> meshFace(const TriangleMesh& mesh, const Brep& brep, const PreparedFaces& prepared, std::int32_t face,
+                            const MeshOptions& options, Progress& progress);
+
+/// Joins the faces' meshes at the nodes that they share.
+QuadMesh joinFaces(const Brep& brep, const PreparedFaces& prepared, const std::vector<MeshedFace>& faces);
+
+}  // namespace qmcf
