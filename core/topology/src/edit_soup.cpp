@@ -1,6 +1,7 @@
 #include "edit_soup.hpp"
 
 #include <algorithm>
+#include <iterator>
 
 namespace qmcf::detail {
 namespace {
@@ -29,6 +30,25 @@ std::vector<std::int32_t> EditSoup::trianglesAt(std::int32_t a, std::int32_t b) 
   std::sort(found.begin(), found.end());
   found.erase(std::unique(found.begin(), found.end()), found.end());
   return found;
+}
+
+bool EditSoup::mayMerge(std::int32_t a, std::int32_t b) const {
+  const auto neighbours = [&](std::int32_t v) {
+    std::vector<std::int32_t> found;
+    for (const std::int32_t t : around_[at(v)]) {
+      const auto& corners = state_.mesh.triangles[at(t)];
+      if (alive(t) && has(corners, v)) found.insert(found.end(), corners.begin(), corners.end());
+    }
+    std::sort(found.begin(), found.end());
+    found.erase(std::unique(found.begin(), found.end()), found.end());
+    return found;
+  };
+  const std::vector<std::int32_t> ofA = neighbours(a);
+  const std::vector<std::int32_t> ofB = neighbours(b);
+  std::vector<std::int32_t> common;
+  std::set_intersection(ofA.begin(), ofA.end(), ofB.begin(), ofB.end(), std::back_inserter(common));
+  // a and b themselves are among them.
+  return common.size() == trianglesAt(a, b).size() + 2;
 }
 
 void EditSoup::merge(std::int32_t kept, std::int32_t gone) {

@@ -22,6 +22,8 @@ class EditSoup {
   /// Living triangles with the edge ab, ascending.
   [[nodiscard]] std::vector<std::int32_t> trianglesAt(std::int32_t a, std::int32_t b) const;
 
+  /// Merging a and b keeps the surface's topology: they share no neighbours but those of the triangles at their edge.
+  [[nodiscard]] bool mayMerge(std::int32_t a, std::int32_t b) const;
   /// Moves every triangle from `gone` to `kept`; triangles that had both die.
   void merge(std::int32_t kept, std::int32_t gone);
   /// Splits every triangle at the edge ab in two at v; a triangle abv dies: it lies on the split edge.

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <queue>
 
 #include "bounding_box.hpp"
+#include "coordinate_noise.hpp"
 #include "qmcf/base/math.hpp"
 
 namespace qmcf::detail {
@@ -16,15 +16,9 @@ const Vec3& point(const TriangleMesh& mesh, VertexId v) { return mesh.positions[
 /// How far the coordinates may be from what the author meant: the resolution of single precision if all of them are
 /// such numbers, and six digits of the size of the part in any case.
 double coordinateNoise(const TriangleMesh& mesh) {
-  bool single = true;
   BoundingBox box;
-  for (const Vec3& p : mesh.positions) {
-    for (const double x : {p.x, p.y, p.z}) single = single && static_cast<double>(static_cast<float>(x)) == x;
-    box.include(p);
-  }
-  const double epsilon =
-      single ? static_cast<double>(std::numeric_limits<float>::epsilon()) : std::numeric_limits<double>::epsilon();
-  return std::fmax(2e-7 * box.diagonal(), 4.0 * epsilon * box.largestCoordinate());
+  for (const Vec3& p : mesh.positions) box.include(p);
+  return std::fmax(2e-7 * box.diagonal(), 4.0 * coordinateResolution(mesh.positions, box));
 }
 
 /// A triangle's normal is trusted when noise turns it by less than 1 / kTrust radians.

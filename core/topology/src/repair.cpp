@@ -1,5 +1,6 @@
 // Repair of triangle soups, in the order of Botsch et al. and Gueziec et al. 2001: exact identification first, then
-// what changes triangles, then orientation. Nothing moves a vertex.
+// what changes triangles, then orientation. Nothing
+// moves a vertex further than the tolerance.
 
 #include "qmcf/topology/repair.hpp"
 
@@ -10,6 +11,7 @@
 #include <string>
 
 #include "bounding_box.hpp"
+#include "coordinate_noise.hpp"
 #include "qmcf/mesh/ids.hpp"
 #include "repair_state.hpp"
 
@@ -137,6 +139,9 @@ void measure(RepairState& state) {
   state.diagonal = box.diagonal();
   state.precision =
       std::fmax(1e-9 * state.diagonal, 4.0 * std::numeric_limits<double>::epsilon() * box.largestCoordinate());
+  // Coordinates far from the origin are coarse, but beyond the cap closing gaps would eat details.
+  const double resolution = std::fmin(4.0 * coordinateResolution(mesh.positions, box), 1e-5 * state.diagonal);
+  state.tolerance = std::fmax(std::fmax(1e-6 * state.diagonal, resolution), state.precision);
 }
 
 /// The passes in their order; \pre the input was checked.
@@ -150,18 +155,22 @@ void runPass(RepairState& state, int pass) {
       return removeDuplicates(state);
     case 3:
       return removeZeroArea(state);
-    // Joining the neighbours of zero-area triangles may put two triangles on the same vertices.
     case 4:
-      return state.modify ? removeDuplicates(state) : void();
+      return closeGaps(state);
     case 5:
-      return orient(state);
+      return removeSlivers(state);
     case 6:
+      // Joining what was apart may put two triangles on the same vertices.
+      return state.modify ? removeDuplicates(state) : void();
+    case 7:
+      return orient(state);
+    case 8:
       return splitLoneEdges(state);
     default:
       return dropUnreferenced(state);
   }
 }
-constexpr int kPasses = 8;
+constexpr int kPasses = 10;
 
 }  // namespace
 }  // namespace detail

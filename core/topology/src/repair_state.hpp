@@ -17,6 +17,7 @@ struct RepairState {
   bool modify = true;
   double diagonal = 0.0;   ///< Of the bounding box of the triangles.
   double precision = 0.0;  ///< Distance below which two points can't be told apart.
+  double tolerance = 0.0;  ///< Distance below which two points were meant to be the same.
 };
 
 /// Counts one defect of the input and keeps the first ids.
@@ -34,8 +35,12 @@ void weldExact(RepairState& state);
 void removeRepeatedCorners(RepairState& state);
 /// Of triangles with the same three vertices keeps one; see duplicates.cpp for folded pairs.
 void removeDuplicates(RepairState& state);
-/// Removes triangles without area such that no crack opens.
+/// Removes triangles without area (lower than the precision) such that no crack opens.
 void removeZeroArea(RepairState& state);
+/// Joins boundaries that are closer than the tolerance: merges vertices, splits edges at T-junctions.
+void closeGaps(RepairState& state);
+/// Removes triangles lower than the tolerance likewise, where the surface stays what it is.
+void removeSlivers(RepairState& state);
 /// Makes the orientation consistent across two-sided edges, outward where there is an inside.
 void orient(RepairState& state);
 /// Splits single non-manifold edges in the middle of a sheet, which can't be cut open without a further vertex.

@@ -1,6 +1,6 @@
-#include <bit>
 #include <cstdint>
 
+#include "qmcf/base/bits.hpp"
 #include "repair_state.hpp"
 
 namespace qmcf::detail {
@@ -14,9 +14,9 @@ std::uint64_t mix(std::uint64_t z) {
 
 /// Adding 0.0 turns -0 into 0.
 std::uint64_t hashOf(const Vec3& p) {
-  const auto x = std::bit_cast<std::uint64_t>(p.x + 0.0);
-  const auto y = std::bit_cast<std::uint64_t>(p.y + 0.0);
-  const auto z = std::bit_cast<std::uint64_t>(p.z + 0.0);
+  const auto x = bitCast<std::uint64_t>(p.x + 0.0);
+  const auto y = bitCast<std::uint64_t>(p.y + 0.0);
+  const auto z = bitCast<std::uint64_t>(p.z + 0.0);
   return mix(mix(mix(x + 0x9E3779B97F4A7C15ULL) + y) + z);
 }
 
@@ -27,7 +27,8 @@ std::vector<std::int32_t> firstAtSamePoint(const TriangleMesh& mesh) {
     for (const std::int32_t v : corners) used[static_cast<std::size_t>(v)] = 1;
   }
   // Open addressing; which slot a point falls into does not influence the result, only who comes first does.
-  const std::size_t slots = std::bit_ceil(2 * mesh.positions.size() + 1);
+  std::size_t slots = 1;
+  while (slots < 2 * mesh.positions.size() + 1) slots *= 2;
   std::vector<std::int32_t> table(slots, -1);
   std::vector<std::int32_t> first(mesh.positions.size(), -1);
   for (std::size_t v = 0; v < mesh.positions.size(); ++v) {

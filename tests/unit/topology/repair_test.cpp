@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -190,6 +191,76 @@ TEST(Repair, NeedleIsCollapsedWithoutOpeningACrack) {
   EXPECT_TRUE(isClosedAndOriented(result.mesh));
   EXPECT_EQ(result.mesh.positions.size(), 26U);
   EXPECT_EQ(result.mesh.triangles.size(), 48U);
+}
+
+TEST(Repair, ClosesGapsThatAreSmallerThanTheTolerance) {
+  TriangleMesh mesh = shapes::cubeSoup(4);
+  Random random(5);
+  for (Vec3& p : mesh.positions) {
+    p = p + Vec3{random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0)} * 2e-7;
+  }
+  const RepairedMesh result = run(mesh);
+  EXPECT_TRUE(isClosedAndOriented(result.mesh));
+  EXPECT_EQ(result.mesh.positions.size(), 98U);
+  EXPECT_EQ(countOf(result, "nearlyEqualVertices"), 6 * 25 - 98);
+  EXPECT_EQ(shapes::checkedBrep(result.mesh).faces.size(), 6U);
+
+  // Without leave to modify, the gaps are counted and stay.
+  const RepairedMesh report = run(mesh, {false});
+  EXPECT_EQ(report.mesh.positions.size(), mesh.positions.size());
+  EXPECT_EQ(countOf(report, "nearlyEqualVertices"), 6 * 25 - 98);
+}
+
+TEST(Repair, LeavesWhatIsFurtherApart) {
+  const TriangleMesh apart = shapes::join(shapes::square(3), shapes::moved(shapes::square(3), [](const Vec3& p) {
+                                            return p + Vec3{1.0 + 1e-4, 0.0, 0.0};
+                                          }));
+  const RepairedMesh result = run(apart);
+  EXPECT_TRUE(result.items.empty());
+  EXPECT_EQ(shapes::checkedBrep(result.mesh).bodies.size(), 2U);
+}
+
+TEST(Repair, SplitsEdgesAtTJunctions) {
+  // Each side of the cube is divided differently, so that no two sides fit.
+  TriangleMesh cube;
+  const std::array<int, 6> cells{1, 2, 3, 5, 7, 4};
+  for (std::size_t side = 0; side < 6; ++side) {
+    TriangleMesh all = shapes::cubeSoup(cells[side]);
+    const std::size_t perSide = all.triangles.size() / 6;
+    const auto begin = all.triangles.begin() + static_cast<std::ptrdiff_t>(side * perSide);
+    all.triangles = {begin, begin + static_cast<std::ptrdiff_t>(perSide)};
+    cube = shapes::join(cube, all);
+  }
+  const RepairedMesh result = run(cube);
+  EXPECT_GT(countOf(result, "tJunctions"), 0);
+  EXPECT_TRUE(isClosedAndOriented(result.mesh));
+  EXPECT_NEAR(volumeOf(result.mesh), 1.0, 1e-6);
+  EXPECT_NEAR(areaOf(result.mesh), 6.0, 1e-6);
+  const Brep brep = shapes::checkedBrep(result.mesh);
+  EXPECT_EQ(brep.faces.size(), 6U);
+  EXPECT_EQ(brep.edges.size(), 12U);
+}
+
+TEST(Repair, RemovesSliversAndKeepsTheSurfaceClosed) {
+  // A torus with vertices almost on the middle of some edges: one sliver each.
+  TriangleMesh mesh = shapes::torus(48, 24, 3.0, 1.0);
+  const std::size_t good = mesh.triangles.size();
+  for (std::size_t t = 0; t < good; t += 17) {
+    const auto c = mesh.triangles[t];
+    const auto m = static_cast<std::int32_t>(mesh.positions.size());
+    const auto at = [&](std::size_t i) { return mesh.positions[std::size_t(c[i])]; };
+    mesh.positions.push_back((at(0) + at(1)) * 0.5 + (at(2) - at(0)) * 1e-7);
+    mesh.triangles[t] = {c[0], m, c[2]};
+    mesh.triangles.push_back({m, c[1], c[2]});
+    mesh.triangles.push_back({c[0], c[1], m});
+  }
+  const double area = areaOf(mesh);
+  const RepairedMesh result = run(mesh);
+  EXPECT_EQ(countOf(result, "sliverTriangles"), std::int64_t((good + 16) / 17));
+  EXPECT_TRUE(isClosedAndOriented(result.mesh));
+  EXPECT_NEAR(areaOf(result.mesh), area, 1e-4);
+  EXPECT_EQ(result.mesh.positions.size(), mesh.positions.size());
+  EXPECT_EQ(shapes::checkedBrep(result.mesh).faces.size(), 1U);
 }
 
 TEST(Repair, OrientsRandomlyTurnedTrianglesOutward) {

@@ -34,9 +34,11 @@ struct BrepEdge {
 /// One use of an edge by a loop. The face lies on its left.
 struct Coedge {
   std::int32_t edge = kNone;
-  bool reversed = false;         ///< The loop runs from the edge's end to its start.
-  double cornerAngle = 0.0;      ///< Angle of the face's fan at the coedge's first vertex, in radians.
-  std::int32_t cornerQuads = 2;  ///< Quads wanted there: round(2 * angle / pi) in 1..4; 2 at an artificial vertex.
+  bool reversed = false;     ///< The loop runs from the edge's end to its start.
+  double cornerAngle = 0.0;  ///< Angle of the face's fan at the coedge's first vertex, in radians.
+  /// Quads wanted there, 1..4: with q = 2 * cornerAngle / pi, 1 up to q = 1.25, 2 up to 2.75, 3 up to 3.5, else 4;
+  /// 2 at an artificial vertex.
+  std::int32_t cornerQuads = 2;
 };
 
 struct BrepLoop {
@@ -48,7 +50,7 @@ struct BrepFace {
   std::vector<std::int32_t> triangles;  ///< Triangles of the mesh, ascending.
   std::vector<BrepLoop> loops;          ///< Empty for a closed smooth surface.
   std::int32_t body = kNone;
-  std::string name;                     ///< From the file's labels, or "face N".
+  std::string name;  ///< From the file's labels, or "face N".
   double area = 0.0;
 };
 
@@ -73,16 +75,28 @@ struct BrepOptions {
 };
 
 /// Cuts the mesh into faces along sharp, boundary, non-manifold and label edges.
-/// \pre mesh comes from repair(): consistent orientation across two-sided edges, no degenerate triangle.
+///
+/// - An edge is sharp from the feature angle on. Chains of sharp edges that end inside a face are continued down to 0.6
+///   of the angle where that leads to another edge; those shorter than 3 % of the body that still end inside a face are
+///   dropped. In a body whose sharp edges end loosely all over (scans, sculpted models) only edges of twice the angle
+///   count, chains and patches must be larger, and zigzag borders have no corners.
+/// - Slivers too thin for a reliable normal take that of a neighbour.
+/// - Labels divide when their regions have four triangles or more on average.
+/// - B-rep vertices are where other than two edges meet, where kinds change, where an edge or a face turns by more than
+///   45 degrees, and where surfaces touch in a point of an edge. Surfaces that touch in a point without any edge do not
+///   share it: each face has a vertex of its own there.
+/// - Edges of Moebius-like pieces that repair() could not orient are non-manifold edges with two triangles.
+///
+/// \pre mesh comes from repair(): no degenerate triangle, no single non-manifold edge inside a sheet.
 /// Complexity O(n log n). Errors: cancelled, noSurface.
 Result<Brep> recoverBrep(const TriangleMesh& mesh, const BrepOptions& options, Progress& progress);
 
 /// The triangles of one face as a manifold surface of its own, cut open along its edges.
 struct FaceSurface {
   Surface surface;
-  std::vector<std::int32_t> vertexPoint;      ///< Per surface vertex: vertex of the mesh. A cut vertex occurs repeatedly.
-  std::vector<std::int32_t> triangleOrigin;   ///< Per surface triangle: triangle of the mesh.
-  IdMap<HalfedgeId, std::int32_t> edge;       ///< Edge of the B-rep under a boundary half-edge; kNone elsewhere.
+  std::vector<std::int32_t> vertexPoint;  ///< Per surface vertex: vertex of the mesh. A cut vertex occurs repeatedly.
+  std::vector<std::int32_t> triangleOrigin;  ///< Per surface triangle: triangle of the mesh.
+  IdMap<HalfedgeId, std::int32_t> edge;      ///< Edge of the B-rep under a boundary half-edge; kNone elsewhere.
   /// Per boundary loop of the surface, in the order of BrepFace::loops: its half-edges, starting where the loop's first
   /// coedge starts.
   std::vector<std::vector<HalfedgeId>> loops;

@@ -12,8 +12,8 @@ namespace qmcf {
 
 /// One kind of defect, what was done about it and where.
 struct RepairItem {
-  std::string defect;                  ///< Identifier, e.g. "duplicateVertices", "degenerateTriangles".
-  std::string action;                  ///< What was done, for a person: "merged", "removed", "turned round".
+  std::string defect;  ///< Identifier, e.g. "duplicateVertices", "degenerateTriangles".
+  std::string action;  ///< What was done, for a person: "merged", "removed", "turned round".
   std::int64_t count = 0;
   std::vector<std::int64_t> elements;  ///< Ids in the input mesh, at most 100.
 };
@@ -29,10 +29,26 @@ struct RepairedMesh {
   std::vector<RepairItem> items;             ///< In the order in which they were done.
 };
 
-/// Makes any triangle soup usable: exact weld, degenerate and duplicate triangles removed, orientation made consistent
-/// across two-sided edges of each component and outward for closed ones, unreferenced vertices dropped.
-/// Non-manifold edges and vertices stay; recoverBrep() cuts there.
-/// Errors: noSurface, nonFiniteCoordinate, indexOutOfRange, cancelled.
+/// Makes any triangle soup usable. In this order, with the identifiers of the items it reports:
+///
+/// - exact weld, 0 equal to -0: duplicateVertices, or unsharedVertices for formats that store each triangle by itself;
+/// - triangles with a repeated corner removed: degenerateTriangles;
+/// - of triangles on the same vertices one kept: duplicateTriangles; of opposite ones, zeroThicknessSheets, while those
+///   that hang on a closed surface go: zeroThicknessFins;
+/// - triangles without area removed such that no crack opens: zeroAreaTriangles;
+/// - boundary vertices within the tolerance merged: nearlyEqualVertices; boundary edges split at boundary vertices that
+///   lie on them: tJunctions. Tolerance: 1e-6 of the bounding box' diagonal, or 4 units of the last place of
+///   coordinates in single precision when these are larger;
+/// - triangles lower than the tolerance removed likewise: sliverTriangles;
+/// - orientation made consistent across two-sided edges: misorientedTriangles; outward for closed components that are
+///   not the wall of a cavity: inwardShells; where a piece has one side only, it stays inconsistent along a cut:
+///   oneSidedEdges;
+/// - a non-manifold edge that a sheet meets in its middle halved: loneNonManifoldEdges;
+/// - vertices without triangles dropped.
+///
+/// Non-manifold edges and vertices stay; recoverBrep() cuts there. With options.modify false, only exact welding,
+/// removal of repeated corners and halving change the mesh; the rest is counted. Errors: noSurface,
+/// nonFiniteCoordinate, indexOutOfRange, tooLarge, cancelled.
 Result<RepairedMesh> repair(const TriangleMesh& input, const RepairOptions& options, Progress& progress);
 
 }  // namespace qmcf
