@@ -1,0 +1,47 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "qmcf/pipeline/mesh_surface.hpp"
+
+namespace qmcf::cli {
+
+/// qmcf mesh IN -o OUT
+struct MeshCommand {
+  std::string input;
+  std::string output;
+  std::string report;  ///< Empty: none.
+  MeshOptions options;
+  bool quiet = false;
+};
+int run(const MeshCommand& command);
+
+/// qmcf field IN -o OUT.vtu
+struct FieldCommand {
+  std::string input;
+  std::string output;
+  MeshOptions options;
+  bool quiet = false;
+};
+int run(const FieldCommand& command);
+
+/// qmcf check OUT --ref IN
+struct CheckCommand {
+  std::string mesh;
+  std::string reference;  ///< Empty: the mesh alone is checked.
+  std::optional<double> size;
+  double featureAngle = 30.0;
+  bool json = false;
+};
+int run(const CheckCommand& command);
+
+/// qmcf info IN
+struct InfoCommand {
+  std::string input;
+  double featureAngle = 30.0;
+  bool json = false;
+};
+int run(const InfoCommand& command);
+
+}  // namespace qmcf::cli

@@ -1,0 +1,116 @@
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <map>
+#include <new>
+
+#include "commands.hpp"
+#include "console.hpp"
+#include "exit_status.hpp"
+
+namespace qmcf::cli {
+namespace {
+
+constexpr const char* kFooter =
+    "Exit status: 0 done; 1 the mesh is not valid (check only); 2 wrong usage or an output that can't be written;\n"
+    "3 input that can't be used; 4 cancelled; 5 internal error.";
+
+/// One flag for each "no-align": given, it turns the option off.
+void addAlignFlag(CLI::App& app, const std::string& name, bool& option, const std::string& what) {
+  app.add_flag_callback(
+      "--no-align-" + name, [&option] { option = false; }, "Don't align the field with " + what);
+}
+
+void addFieldOptions(CLI::App& app, MeshOptions& options) {
+  auto* const size = app.add_option("--size", options.size, "Edge length of the elements, in units of the model");
+  app.add_option("--quads", options.quads, "Number of elements to aim at (3000 unless --size is given)")
+      ->excludes(size);
+  app.add_option("--feature-angle", options.featureAngle, "Dihedral angle in degrees from which an edge is sharp")
+      ->capture_default_str();
+  app.add_option("--gradation", options.gradation, "Largest slope of the element size, up to 1")->capture_default_str();
+  addAlignFlag(app, "boundary", options.alignBoundary, "boundary edges");
+  addAlignFlag(app, "sharp", options.alignSharp, "sharp edges");
+  addAlignFlag(app, "non-manifold", options.alignNonManifold, "non-manifold edges");
+  addAlignFlag(app, "curvature", options.alignCurvature, "principal curvature");
+}
+
+void addMesh(CLI::App& app, MeshCommand& command) {
+  app.add_option("input", command.input, "Model: OBJ, STL or PLY")->type_name("IN")->required();
+  app.add_option("-o,--output", command.output, "Mesh: .obj .ply .stl .vtu .msh .inp .bdf")
+      ->type_name("OUT")
+      ->required();
+  addFieldOptions(app, command.options);
+  const std::map<std::string, Mode> modes{{"qmcf", Mode::qmcf}, {"qmorph", Mode::qmorph}};
+  app.add_option("--mode", command.options.mode, "Advancing front: qmcf (guided by the field) or qmorph (the original)")
+      ->transform(CLI::CheckedTransformer(modes).description(""))
+      ->type_name("MODE")
+      ->default_str("qmcf");
+  app.add_option("--report", command.report, "Write a report")->type_name("FILE.json");
+  app.add_flag("--quiet", command.quiet, "Print nothing but errors");
+}
+
+void addField(CLI::App& app, FieldCommand& command) {
+  app.add_option("input", command.input, "Model: OBJ, STL or PLY")->type_name("IN")->required();
+  app.add_option("-o,--output", command.output, "Field and singularities")->type_name("OUT.vtu")->required();
+  addFieldOptions(app, command.options);
+  app.add_flag("--quiet", command.quiet, "Print nothing but errors");
+}
+
+void addCheck(CLI::App& app, CheckCommand& command) {
+  app.add_option("mesh", command.mesh, "Mesh of quadrilaterals and triangles: OBJ or PLY")
+      ->type_name("OUT")
+      ->required();
+  app.add_option("--ref", command.reference, "Model that was meshed")->type_name("IN");
+  app.add_option("--size", command.size, "Edge length that was asked for");
+  app.add_option("--feature-angle", command.featureAngle, "Dihedral angle in degrees from which an edge is sharp")
+      ->capture_default_str();
+  app.add_flag("--json", command.json, "Print JSON");
+}
+
+void addInfo(CLI::App& app, InfoCommand& command) {
+  app.add_option("input", command.input, "Model: OBJ, STL or PLY")->type_name("IN")->required();
+  app.add_option("--feature-angle", command.featureAngle, "Dihedral angle in degrees from which an edge is sharp")
+      ->capture_default_str();
+  app.add_flag("--json", command.json, "Print JSON");
+}
+
+int runProgram(int argc, char** argv) {
+  CLI::App app("QMCF: quad meshes that follow edges, curvature and the element size asked for.", "qmcf");
+  app.set_version_flag("--version", "qmcf " QMCF_VERSION);
+  app.require_subcommand(1);
+  app.footer(kFooter);
+  MeshCommand mesh;
+  FieldCommand field;
+  CheckCommand check;
+  InfoCommand info;
+  CLI::App* const meshApp = app.add_subcommand("mesh", "Mesh a model with quadrilaterals");
+  CLI::App* const fieldApp = app.add_subcommand("field", "Write the cross field of a model");
+  CLI::App* const checkApp = app.add_subcommand("check", "Validate and measure a mesh");
+  CLI::App* const infoApp = app.add_subcommand("info", "Print what a model holds: repairs, faces, edges, vertices");
+  addMesh(*meshApp, mesh);
+  addField(*fieldApp, field);
+  addCheck(*checkApp, check);
+  addInfo(*infoApp, info);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? kDone : kWrongUsage;
+  }
+  catchInterrupts();
+  if (meshApp->parsed()) return run(mesh);
+  if (fieldApp->parsed()) return run(field);
+  if (checkApp->parsed()) return run(check);
+  return run(info);
+}
+
+}  // namespace
+}  // namespace qmcf::cli
+
+int main(int argc, char** argv) {
+  try {
+    return qmcf::cli::runProgram(argc, argv);
+  } catch (const std::bad_alloc&) {
+    return qmcf::cli::fail({qmcf::ErrorCode::tooLarge, "The model or its mesh needs more memory than there is.", {}});
+  } catch (const std::exception& error) {
+    return qmcf::cli::fail({qmcf::ErrorCode::internal, std::string("Internal error: ") + error.what(), {}});
+  }
+}

@@ -1,0 +1,71 @@
+#include <chrono>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "commands.hpp"
+#include "console.hpp"
+#include "exit_status.hpp"
+#include "files.hpp"
+#include "load.hpp"
+#include "qmcf/io/write.hpp"
+#include "qmcf/pipeline/report_json.hpp"
+#include "report_text.hpp"
+
+namespace qmcf::cli {
+namespace {
+
+/// An error that is known before anything has been read.
+std::optional<Error> checkCommand(const MeshCommand& command) {
+  if (!outputFormatOf(command.output)) {
+    return Error{ErrorCode::unsupportedOutput,
+                 command.output + " has no known extension; use .obj, .ply, .stl, .vtu, .msh, .inp, .bdf or .nas.",
+                 {}};
+  }
+  if (std::optional<Error> error = validateOptions(command.options)) return error;
+  if (std::optional<Error> error = checkWritable(command.output)) return error;
+  return command.report.empty() ? std::nullopt : checkWritable(command.report);
+}
+
+WriteOptions groupNames(const Brep& brep) {
+  WriteOptions options;
+  for (const BrepFace& face : brep.faces) options.faceNames.push_back(face.name);
+  return options;
+}
+
+/// The report with indentation: people look into it, too.
+std::string reportFile(const MeshResult& result) {
+  return nlohmann::ordered_json::parse(toJson(result)).dump(1) + "\n";
+}
+
+}  // namespace
+
+int run(const MeshCommand& command) {
+  const auto start = std::chrono::steady_clock::now();
+  if (const std::optional<Error> error = checkCommand(command)) return fail(*error);
+  ConsoleProgress progress(command.quiet);
+  const Result<ReadModel> model = loadModel(command.input, progress);
+  progress.clear();
+  if (!model.ok()) return fail(model.error(), command.input);
+  const Result<MeshResult> result = meshSurface(model.value().mesh, command.options, progress);
+  progress.clear();
+  if (!result.ok()) return fail(result.error(), command.input);
+
+  const MeshResult& mesh = result.value();
+  const std::string content = writeMesh(mesh.mesh, *outputFormatOf(command.output), groupNames(mesh.input.brep));
+  // A last look: a run that was interrupted this late leaves no file either.
+  if (!progress.report(Stage::write, 1.0)) return fail(cancelledError(), command.input);
+  progress.clear();
+  if (const std::optional<Error> error = writeFile(command.output, content)) return fail(*error);
+  if (!command.report.empty()) {
+    if (const std::optional<Error> error = writeFile(command.report, reportFile(mesh))) return fail(*error);
+  }
+  if (command.quiet) return kDone;
+  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+  const std::string text = modelText(command.input, model.value()) + partText(mesh.input) + meshText(mesh) +
+                           qualityText(mesh.quality) + "Written   " + command.output + " in " +
+                           shortNumber(elapsed.count()) + " s\n";
+  std::fputs(text.c_str(), stdout);
+  return kDone;
+}
+
+}  // namespace qmcf::cli

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "qmcf/io/read.hpp"
+#include "qmcf/pipeline/mesh_surface.hpp"
+
+namespace qmcf::cli {
+
+/// Lines of text for a person, each with a label in front and a line end behind.
+
+/// What the file holds.
+std::string modelText(const std::string& path, const ReadModel& model);
+/// What was repaired, one line for each item, and the recovered part.
+std::string partText(const InspectResult& result);
+/// Each face, edge and vertex of the recovered part.
+std::string elementsText(const Brep& brep);
+/// The mesh, and the faces that could not be meshed in the first way.
+std::string meshText(const MeshResult& result);
+/// Shape, fidelity and checks.
+std::string qualityText(const QualityReport& report);
+
+/// A number with four significant digits.
+std::string shortNumber(double value);
+/// "1 face", "2 faces".
+std::string counted(std::int64_t count, const std::string& singular, const std::string& plural);
+
+}  // namespace qmcf::cli
