@@ -1,6 +1,7 @@
 // Orientation of the triangles, patch by patch: a patch is a set of triangles connected across two-sided edges.
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "bounding_box.hpp"
@@ -26,6 +27,13 @@ struct Orientation {
   std::vector<EdgeId> conflicts;  ///< Two-sided edges whose triangles can't agree (Moebius).
 };
 
+/// The half-edges of t in an order that does not depend on its orientation, so that repairing again changes nothing.
+std::array<HalfedgeId, 3> halfedgesByEdge(const TriangleEdges& edges, TriangleId t) {
+  std::array<HalfedgeId, 3> sides{Surface::halfedge(t, 0), Surface::halfedge(t, 1), Surface::halfedge(t, 2)};
+  std::sort(sides.begin(), sides.end(), [&](HalfedgeId g, HalfedgeId h) { return edges.edge(g) < edges.edge(h); });
+  return sides;
+}
+
 /// Floods patches; within each, all agree with its first triangle as far as possible.
 Orientation flood(const TriangleEdges& edges) {
   Orientation result;
@@ -40,8 +48,7 @@ Orientation flood(const TriangleEdges& edges) {
     result.patchOf[root.index()] = id;
     for (std::size_t i = 0; i < patch.triangles.size(); ++i) {
       const TriangleId t(patch.triangles[i]);
-      for (int c = 0; c < 3; ++c) {
-        const HalfedgeId h = Surface::halfedge(t, c);
+      for (const HalfedgeId h : halfedgesByEdge(edges, t)) {
         const HalfedgeId g = edges.other(h);
         if (!g.valid()) continue;
         const TriangleId u = Surface::triangle(g);

@@ -144,6 +144,19 @@ void measure(RepairState& state) {
   state.tolerance = std::fmax(std::fmax(1e-6 * state.diagonal, resolution), state.precision);
 }
 
+/// Closes gaps and what follows from that: joining what was apart makes slivers and puts triangles on the same
+/// vertices, and removing these may show another gap.
+void joinPieces(RepairState& state) {
+  constexpr int kRounds = 3;
+  for (int round = 0; round < kRounds; ++round) {
+    const auto before = state.mesh.triangles;
+    closeGaps(state);
+    removeSlivers(state);
+    if (!state.modify || state.mesh.triangles == before) return;
+    removeDuplicates(state);
+  }
+}
+
 /// The passes in their order; \pre the input was checked.
 void runPass(RepairState& state, int pass) {
   switch (pass) {
@@ -156,21 +169,16 @@ void runPass(RepairState& state, int pass) {
     case 3:
       return removeZeroArea(state);
     case 4:
-      return closeGaps(state);
+      return joinPieces(state);
     case 5:
-      return removeSlivers(state);
-    case 6:
-      // Joining what was apart may put two triangles on the same vertices.
-      return state.modify ? removeDuplicates(state) : void();
-    case 7:
       return orient(state);
-    case 8:
+    case 6:
       return splitLoneEdges(state);
     default:
       return dropUnreferenced(state);
   }
 }
-constexpr int kPasses = 10;
+constexpr int kPasses = 8;
 
 }  // namespace
 }  // namespace detail

@@ -1,6 +1,9 @@
+#include "weld.hpp"
+
 #include <cstdint>
 
 #include "qmcf/base/bits.hpp"
+#include "qmcf/mesh/ids.hpp"
 #include "repair_state.hpp"
 
 namespace qmcf::detail {
@@ -20,7 +23,8 @@ std::uint64_t hashOf(const Vec3& p) {
   return mix(mix(mix(x + 0x9E3779B97F4A7C15ULL) + y) + z);
 }
 
-/// Per vertex that a triangle uses the first such vertex at the same point; kNone for the others.
+}  // namespace
+
 std::vector<std::int32_t> firstAtSamePoint(const TriangleMesh& mesh) {
   std::vector<std::uint8_t> used(mesh.positions.size(), 0);
   for (const auto& corners : mesh.triangles) {
@@ -29,8 +33,8 @@ std::vector<std::int32_t> firstAtSamePoint(const TriangleMesh& mesh) {
   // Open addressing; which slot a point falls into does not influence the result, only who comes first does.
   std::size_t slots = 1;
   while (slots < 2 * mesh.positions.size() + 1) slots *= 2;
-  std::vector<std::int32_t> table(slots, -1);
-  std::vector<std::int32_t> first(mesh.positions.size(), -1);
+  std::vector<std::int32_t> table(slots, kNone);
+  std::vector<std::int32_t> first(mesh.positions.size(), kNone);
   for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
     if (used[v] == 0) continue;
     std::size_t slot = static_cast<std::size_t>(hashOf(mesh.positions[v])) & (slots - 1);
@@ -43,7 +47,6 @@ std::vector<std::int32_t> firstAtSamePoint(const TriangleMesh& mesh) {
   return first;
 }
 
-/// STL stores every triangle with three vertices of its own; that is the format, not a defect of the model.
 bool isTriangleList(const TriangleMesh& mesh) {
   if (mesh.positions.size() != 3 * mesh.triangles.size()) return false;
   std::int32_t next = 0;
@@ -54,8 +57,6 @@ bool isTriangleList(const TriangleMesh& mesh) {
   }
   return true;
 }
-
-}  // namespace
 
 void weldExact(RepairState& state) {
   TriangleMesh& mesh = state.mesh;

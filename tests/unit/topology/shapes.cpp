@@ -168,6 +168,9 @@ void checkLoop(const Brep& brep, const FaceSurface& face, const BrepLoop& loop,
 }
 
 void checkGaussBonnet(const Surface& surface) {
+  for (const HalfedgeId h : surface.halfedges()) {
+    if (surface.length(h) == 0.0) return;  // Such a triangle has no angles.
+  }
   double curvature = 0.0;
   for (const VertexId v : surface.vertices()) {
     curvature += surface.isBoundary(v) ? kPi : 2.0 * kPi;
