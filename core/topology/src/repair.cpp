@@ -152,8 +152,9 @@ void joinPieces(RepairState& state) {
     const auto before = state.mesh.triangles;
     closeGaps(state);
     removeSlivers(state);
-    if (!state.modify || state.mesh.triangles == before) return;
+    if (!state.modify) return;
     removeDuplicates(state);
+    if (state.mesh.triangles == before) return;
   }
 }
 
