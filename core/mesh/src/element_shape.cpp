@@ -3,16 +3,26 @@
 #include <algorithm>
 
 namespace qmcf {
+namespace {
+
+/// A corner whose area, seen along the surface normal, is less than this share of its side lengths' product is folded.
+constexpr double kFolded = 0.05;
+
+}  // namespace
 
 double quadShape(const EditMesh& mesh, const std::array<VertexId, 4>& corners) {
+  const auto p = [&](std::size_t i) -> const Vec3& { return mesh.position(corners[i % 4]); };
+  const Vec3 normal = normalized(cross(p(2) - p(0), p(3) - p(1)));
   double worst = 1.0;
   for (std::size_t i = 0; i < 4; ++i) {
-    const Vec3 p = mesh.position(corners[i]);
-    const Vec3 forward = mesh.position(corners[(i + 1) % 4]) - p;
-    const Vec3 backward = mesh.position(corners[(i + 3) % 4]) - p;
+    const Vec3 forward = p(i + 1) - p(i);
+    const Vec3 backward = p(i + 3) - p(i);
     const double lengths = norm(forward) * norm(backward);
     if (!(lengths > 0.0)) return -1.0;
-    worst = std::min(worst, dot(cross(forward, backward), mesh.normal(corners[i])) / lengths);
+    const Vec3 corner = cross(forward, backward) / lengths;
+    // Against the element's own normal the scaled Jacobian; against the surface's a fold shows.
+    worst = std::min(worst, dot(corner, normal));
+    if (dot(corner, mesh.normal(corners[i])) < kFolded) worst = std::min(worst, dot(corner, mesh.normal(corners[i])));
   }
   return worst;
 }
