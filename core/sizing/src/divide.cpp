@@ -34,14 +34,14 @@ EdgeSizes sizesOf(const SizeField& size, const BrepEdge& edge, const EdgeCurve& 
 }
 
 /// The corners of a coarse polygon get nodes where there is room for an element on both sides.
-std::vector<double> stopsOf(const Plan& plan) {
+std::vector<double> stopsOf(const Plan& plan, std::int32_t minimum) {
   constexpr double kCorner = math::kPi / 12.0;
-  constexpr double kRoom = 0.75;
+  const double room = 0.75 * std::min(1.0, plan.wanted() / minimum);
   const std::vector<Vec3>& points = plan.curve.points;
   std::vector<double> stops{0.0};
   for (std::size_t i = 1; i + 1 < points.size(); ++i) {
     const double at = interpolate(plan.sizes.arcLength, plan.integral, plan.curve.arcLength[i]);
-    if (at - stops.back() < kRoom || plan.wanted() - at < kRoom) continue;
+    if (at - stops.back() < room || plan.wanted() - at < room) continue;
     const Vec3 before = points[i] - points[i - 1];
     const Vec3 after = points[i + 1] - points[i];
     if (math::atan2(norm(cross(before, after)), dot(before, after)) >= kCorner) stops.push_back(at);
@@ -61,7 +61,7 @@ Plan planEdge(const TriangleMesh& mesh, const BrepEdge& edge, const SizeField& s
     const double density = 0.5 * (1.0 / plan.sizes.value[i] + 1.0 / plan.sizes.value[i + 1]);
     plan.integral.push_back(plan.integral.back() + length * density);
   }
-  plan.stops = stopsOf(plan);
+  plan.stops = stopsOf(plan, minimum);
   plan.least = std::max({minimum, plan.curve.closed ? 3 : 1, static_cast<std::int32_t>(plan.stops.size()) - 1});
   if (e < size.minimumDivisions.size()) plan.least = std::max(plan.least, size.minimumDivisions[e]);
   std::int32_t rounded = 0;

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "edge_samples.hpp"
-#include "min_heap.hpp"
+#include "qmcf/sizing/min_heap.hpp"
 
 namespace qmcf {
 namespace {
@@ -131,7 +131,10 @@ void gradeEdges(EdgeSamples& samples, const Brep& brep, double gradation) {
     heap.push(size, node);
   };
   while (!heap.empty()) {
-    const auto [size, node] = heap.pop();
+    // No structured binding: clang before 16 can't capture one in a lambda.
+    const MinHeap::Entry entry = heap.pop();
+    const double size = entry.first;
+    const std::int32_t node = entry.second;
     const auto n = static_cast<std::size_t>(node);
     if (size > nodes.size[n]) continue;
     for (const auto& [neighbor, length] : nodes.neighbors[n]) relax(neighbor, size + gradation * length, kNone);

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "edge_samples.hpp"
-#include "min_heap.hpp"
+#include "qmcf/sizing/min_heap.hpp"
 
 namespace qmcf {
 namespace {

@@ -1,0 +1,318 @@
+#include "remesher.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
+#include "qmcf/sizing/min_heap.hpp"
+
+namespace qmcf {
+namespace {
+
+// Bounds of edge lengths in units of the target, from Botsch and Kobbelt 2004.
+constexpr double kLongest = 4.0 / 3.0;
+constexpr double kShortest = 4.0 / 5.0;
+// An edge between two boundary vertices stays if it is shorter than this: there is no room for a vertex on it.
+constexpr double kNarrow = 0.75;
+// Slope of the triangles' lengths away from short boundary edges: steep, since triangles need not fit quads.
+constexpr double kLengthSlope = 0.4;
+// A new triangle keeps within this angle's cosine of the smooth surface's normal.
+constexpr double kMinCosine = 0.3;
+// Below this, triangles may not get worse.
+constexpr double kPoorQuality = 0.1;
+// No new triangle may be as bad as this: its normal would mean nothing.
+constexpr double kDegenerate = 1e-5;
+
+std::size_t index(std::int32_t i) { return static_cast<std::size_t>(i); }
+
+/// 1 for an equilateral triangle, 0 for one without area.
+double shapeQuality(const Vec3& a, const Vec3& b, const Vec3& c) {
+  constexpr double kEquilateral = 3.4641016151377544;  // 2 sqrt(3)
+  const double sum = squaredNorm(b - a) + squaredNorm(c - b) + squaredNorm(a - c);
+  return sum > 0.0 ? kEquilateral * norm(cross(b - a, c - a)) / sum : 0.0;
+}
+
+void grade(const RemeshMesh& mesh, std::vector<double>& value, double highest, double slope) {
+  MinHeap heap;
+  for (std::int32_t v = 0; v < mesh.vertexCount(); ++v) {
+    if (value[index(v)] < highest && !mesh.isVertexRemoved(v)) heap.push(value[index(v)], v);
+  }
+  while (!heap.empty()) {
+    const auto [key, v] = heap.pop();
+    if (key > value[index(v)]) continue;
+    const double own = key;
+    const std::int32_t center = v;
+    mesh.forEachNeighbor(center, [&](std::int32_t w) {
+      const double graded = own + slope * distance(mesh.positionOf(center), mesh.positionOf(w));
+      if (!(graded < value[index(w)])) return;
+      value[index(w)] = graded;
+      heap.push(graded, w);
+    });
+  }
+}
+
+}  // namespace
+
+void Remesher::updateSizes() {
+  const auto count = index(mesh_.vertexCount());
+  size_.assign(count, targets_.base);
+  length_.assign(count, targets_.base * targets_.relativeSize);
+  for (std::size_t v = 0; v < targets_.nodeSize.size(); ++v) {
+    if (mesh_.role[v] == VertexRole::node) size_[v] = std::min(size_[v], targets_.nodeSize[v]);
+  }
+  grade(mesh_, size_, targets_.base, targets_.gradation);
+  for (std::size_t v = 0; v < count; ++v) length_[v] = size_[v] * targets_.relativeSize;
+  for (std::size_t v = 0; v < targets_.spacing.size(); ++v) {
+    if (mesh_.role[v] == VertexRole::node) length_[v] = std::min(length_[v], targets_.spacing[v]);
+  }
+  grade(mesh_, length_, targets_.base * targets_.relativeSize, kLengthSlope);
+}
+
+double Remesher::edgeLength(std::int32_t a, std::int32_t b) const {
+  return 0.5 * (length_[index(a)] + length_[index(b)]);
+}
+
+double Remesher::quality(std::int32_t a, std::int32_t b, std::int32_t c) const {
+  return shapeQuality(mesh_.positionOf(a), mesh_.positionOf(b), mesh_.positionOf(c));
+}
+
+bool Remesher::looksOutward(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& normal) const {
+  const Vec3 area = cross(b - a, c - a);
+  return dot(area, normal) > kMinCosine * norm(area) * norm(normal);
+}
+
+bool Remesher::joinsBoundary(std::int32_t a, std::int32_t b) const {
+  return mesh_.role[index(a)] != VertexRole::interior && mesh_.role[index(b)] != VertexRole::interior;
+}
+
+/// Whether the triangles around `removed` stay acceptable when it moves to `kept`.
+bool Remesher::keepsShape(std::int32_t removed, std::int32_t kept, double longest) {
+  double worstBefore = 1.0;
+  double worstAfter = 1.0;
+  bool good = true;
+  mesh_.forEachOutgoing(removed, [&](std::int32_t h) {
+    if (!good) return;
+    const std::int32_t b = mesh_.target(h);
+    const std::int32_t c = mesh_.apex(h);
+    worstBefore = std::min(worstBefore, quality(removed, b, c));
+    if (b == kept || c == kept) return;
+    const Vec3& p = mesh_.positionOf(kept);
+    const Vec3 normal = mesh_.normal[index(kept)] + mesh_.normal[index(b)] + mesh_.normal[index(c)];
+    good = looksOutward(p, mesh_.positionOf(b), mesh_.positionOf(c), normal);
+    worstAfter = std::min(worstAfter, quality(kept, b, c));
+  });
+  if (!good || worstAfter < std::max(kDegenerate, std::min(kPoorQuality, worstBefore))) return false;
+  mesh_.forEachNeighbor(removed, [&](std::int32_t v) {
+    if (v == kept || !good) return;
+    const double length = distance(mesh_.positionOf(kept), mesh_.positionOf(v));
+    if (length > longest) good = false;
+    if (joinsBoundary(kept, v) && mesh_.role[index(removed)] == VertexRole::interior &&
+        length > kNarrow * edgeLength(kept, v) && !mesh_.areNeighbors(kept, v)) {
+      good = false;
+    }
+  });
+  return good;
+}
+
+bool Remesher::tryCollapse(std::int32_t h, std::int32_t removed) {
+  const std::int32_t kept = mesh_.origin(h) == removed ? mesh_.target(h) : mesh_.origin(h);
+  const bool isPoint = mesh_.role[index(removed)] == VertexRole::point;
+  const double longest = isPoint ? HUGE_VAL : kLongest * edgeLength(removed, kept);
+  if (!mesh_.canCollapse(h, removed) || !keepsShape(removed, kept, longest)) return false;
+  mesh_.collapse(h, removed);
+  return true;
+}
+
+std::int32_t Remesher::removePoints() {
+  std::int32_t left = 0;
+  for (std::int32_t v = 0; v < mesh_.vertexCount(); ++v) {
+    if (mesh_.isVertexRemoved(v) || mesh_.role[index(v)] != VertexRole::point) continue;
+    std::int32_t first = mesh_.outgoing(v);
+    std::int32_t second = mesh_.incomingBoundary(v);
+    if (mesh_.length(second) < mesh_.length(first)) std::swap(first, second);
+    if (!tryCollapse(first, v) && !tryCollapse(second, v)) ++left;
+  }
+  return left;
+}
+
+bool Remesher::forcePoint(std::int32_t v) {
+  for (const std::int32_t h : {mesh_.outgoing(v), mesh_.incomingBoundary(v)}) {
+    if (!mesh_.canCollapse(h, v)) continue;
+    mesh_.collapse(h, v);
+    return true;
+  }
+  return false;
+}
+
+std::int32_t Remesher::collapseShort() {
+  std::int32_t collapsed = 0;
+  for (std::int32_t h = 0; h < mesh_.halfedgeCount(); ++h) {
+    if (mesh_.isRemoved(h) || mesh_.twin(h) < h) continue;
+    const std::int32_t a = mesh_.origin(h);
+    const std::int32_t b = mesh_.target(h);
+    if (mesh_.length(h) >= kShortest * edgeLength(a, b)) continue;
+    const bool aGoes = mesh_.role[index(a)] == VertexRole::interior;
+    const bool bGoes = mesh_.role[index(b)] == VertexRole::interior;
+    if ((aGoes && tryCollapse(h, a)) || (bGoes && tryCollapse(h, b))) ++collapsed;
+  }
+  return collapsed;
+}
+
+bool Remesher::isTooLong(std::int32_t h) const {
+  const std::int32_t a = mesh_.origin(h);
+  const std::int32_t b = mesh_.target(h);
+  return mesh_.length(h) > (joinsBoundary(a, b) ? kNarrow : kLongest) * edgeLength(a, b) && isLongInSliver(h) &&
+         isLongInSliver(mesh_.twin(h));
+}
+
+/// Whether splitting the edge does not cut the triangle of h into more slivers: false for a short side of a sliver.
+bool Remesher::isLongInSliver(std::int32_t h) const {
+  constexpr double kSliver = 0.1;
+  const double length = mesh_.length(h);
+  return (length >= mesh_.length(RemeshMesh::next(h)) && length >= mesh_.length(RemeshMesh::prev(h))) ||
+         quality(mesh_.origin(h), mesh_.target(h), mesh_.apex(h)) > kSliver;
+}
+
+void Remesher::splitEdge(std::int32_t h) {
+  const std::int32_t a = mesh_.origin(h);
+  const std::int32_t b = mesh_.target(h);
+  const std::int32_t c = mesh_.apex(h);
+  const std::int32_t d = mesh_.apex(mesh_.twin(h));
+  const Vec3 middle = (mesh_.positionOf(a) + mesh_.positionOf(b)) * 0.5;
+  Vec3 normal = normalized(mesh_.normal[index(a)] + mesh_.normal[index(b)]);
+  if (normal == Vec3{}) normal = mesh_.normal[index(a)];
+  const std::int32_t m = mesh_.split(h, middle);
+  mesh_.normal[index(m)] = normal;
+  size_.push_back(0.5 * (size_[index(a)] + size_[index(b)]));
+  length_.push_back(0.5 * (length_[index(a)] + length_[index(b)]));
+  const FaceReference::Foot foot = reference_.project(middle, normal);
+  mesh_.normal[index(m)] = foot.normal;
+  mesh_.triangle[index(m)] = foot.triangle;
+  // New edges must not call for more splits than those at the middle would: else splitting might never end.
+  const double whole = distance(mesh_.positionOf(a), mesh_.positionOf(b));
+  for (const std::int32_t v : {a, b, c, d}) {
+    const double most = v == a || v == b ? 0.75 * whole : distance(middle, mesh_.positionOf(v));
+    if (distance(foot.position, mesh_.positionOf(v)) > std::max(most, kLongest * edgeLength(m, v))) return;
+  }
+  const std::array<std::int32_t, 4> ring{a, d, b, c};
+  for (std::size_t i = 0; i < 4; ++i) {
+    const Vec3& p = mesh_.positionOf(ring[i]);
+    const Vec3& q = mesh_.positionOf(ring[(i + 1) % 4]);
+    if (!looksOutward(foot.position, p, q, foot.normal)) return;
+  }
+  mesh_.position[index(m)] = foot.position;
+}
+
+void Remesher::splitLong() {
+  // Longest first: the new edge in a triangle whose longest edge is halved is shorter than that one. In any other order
+  // slivers multiply without bound.
+  MinHeap heap;
+  const auto pushIfLong = [&](std::int32_t h) {
+    if (mesh_.twin(h) == kNone) return;
+    const std::int32_t canonical = std::min(h, mesh_.twin(h));
+    if (isTooLong(canonical)) heap.push(-mesh_.length(canonical), canonical);
+  };
+  for (std::int32_t h = 0; h < mesh_.halfedgeCount(); ++h) {
+    if (!mesh_.isRemoved(h) && h < mesh_.twin(h)) pushIfLong(h);
+  }
+  while (!heap.empty()) {
+    const auto [key, h] = heap.pop();
+    if (key != -mesh_.length(h) || !isTooLong(h)) continue;
+    splitEdge(h);
+    // The edges around the new vertex may have got new ids.
+    mesh_.forEachOutgoing(mesh_.target(h), [&](std::int32_t out) {
+      pushIfLong(out);
+      pushIfLong(RemeshMesh::next(out));
+    });
+  }
+}
+
+bool Remesher::wantsFlip(std::int32_t h) const {
+  constexpr double kFlat = 0.9995;
+  constexpr double kGain = 1e-6;
+  constexpr double kGoodEnough = 0.35;
+  const std::int32_t a = mesh_.origin(h);
+  const std::int32_t b = mesh_.target(h);
+  const std::int32_t c = mesh_.apex(h);
+  const std::int32_t d = mesh_.apex(mesh_.twin(h));
+  const double before = std::min(quality(a, b, c), quality(b, a, d));
+  const double after = std::min(quality(d, c, a), quality(c, d, b));
+  const bool leavesBoundary = joinsBoundary(a, b) && !joinsBoundary(c, d);
+  const double acrossLength = distance(mesh_.positionOf(c), mesh_.positionOf(d));
+  const bool entersBoundary = joinsBoundary(c, d) && !joinsBoundary(a, b) && acrossLength > kNarrow * edgeLength(c, d);
+  if (entersBoundary) return false;
+  if (after < kDegenerate) return false;
+  if (!(after > before + kGain) && !(leavesBoundary && after > kGoodEnough)) return false;
+  const Vec3& pa = mesh_.positionOf(a);
+  const Vec3& pb = mesh_.positionOf(b);
+  const Vec3& pc = mesh_.positionOf(c);
+  const Vec3& pd = mesh_.positionOf(d);
+  const Vec3 around = mesh_.normal[index(c)] + mesh_.normal[index(d)];
+  if (!looksOutward(pd, pc, pa, around + mesh_.normal[index(a)])) return false;
+  if (!looksOutward(pc, pd, pb, around + mesh_.normal[index(b)])) return false;
+  // Across a fold of two facets much larger than the target, a flip would cut a corner off.
+  const double large = 2.5 * edgeLength(a, b);
+  if (mesh_.length(h) < large && acrossLength < large) return true;
+  return dot(normalized(cross(pb - pa, pc - pa)), normalized(cross(pa - pb, pd - pb))) > kFlat;
+}
+
+void Remesher::flipEdges() {
+  constexpr int kSweeps = 4;
+  for (int sweep = 0; sweep < kSweeps; ++sweep) {
+    std::int32_t flipped = 0;
+    for (std::int32_t h = 0; h < mesh_.halfedgeCount(); ++h) {
+      if (mesh_.isRemoved(h) || mesh_.twin(h) < h || !wantsFlip(h) || !mesh_.canFlip(h)) continue;
+      mesh_.flip(h);
+      ++flipped;
+    }
+    if (flipped == 0) return;
+  }
+}
+
+bool Remesher::tryMove(std::int32_t v, const Vec3& to, const Vec3& normal) {
+  double worstBefore = 1.0;
+  double worstAfter = 1.0;
+  bool good = true;
+  mesh_.forEachOutgoing(v, [&](std::int32_t h) {
+    if (!good) return;
+    const Vec3& b = mesh_.positionOf(mesh_.target(h));
+    const Vec3& c = mesh_.positionOf(mesh_.apex(h));
+    worstBefore = std::min(worstBefore, shapeQuality(mesh_.positionOf(v), b, c));
+    worstAfter = std::min(worstAfter, shapeQuality(to, b, c));
+    good = looksOutward(to, b, c, normal);
+  });
+  if (!good || (worstAfter < worstBefore && worstAfter < kPoorQuality)) return false;
+  mesh_.position[index(v)] = to;
+  return true;
+}
+
+void Remesher::smooth(int sweeps) {
+  for (int sweep = 0; sweep < sweeps; ++sweep) {
+    for (std::int32_t v = 0; v < mesh_.vertexCount(); ++v) {
+      if (mesh_.isVertexRemoved(v) || mesh_.role[index(v)] != VertexRole::interior) continue;
+      const Vec3 p = mesh_.positionOf(v);
+      Vec3 sum;
+      double weights = 0.0;
+      mesh_.forEachNeighbor(v, [&](std::int32_t w) {
+        const double weight = distance(p, mesh_.positionOf(w)) / edgeLength(v, w);
+        sum += mesh_.positionOf(w) * weight;
+        weights += weight;
+      });
+      if (!(weights > 0.0)) continue;
+      const Vec3& normal = mesh_.normal[index(v)];
+      const Vec3 step = tangentPart(sum / weights - p, normal);
+      if (!tryMove(v, p + step, normal)) (void)tryMove(v, p + step * 0.3, normal);
+    }
+  }
+  for (std::int32_t v = 0; v < mesh_.vertexCount(); ++v) {
+    if (mesh_.isVertexRemoved(v) || mesh_.role[index(v)] != VertexRole::interior) continue;
+    const FaceReference::Foot foot = reference_.project(mesh_.positionOf(v), mesh_.normal[index(v)]);
+    if (!tryMove(v, foot.position, foot.normal)) continue;
+    mesh_.normal[index(v)] = foot.normal;
+    mesh_.triangle[index(v)] = foot.triangle;
+  }
+}
+
+}  // namespace qmcf

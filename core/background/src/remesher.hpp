@@ -1,0 +1,66 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "face_reference.hpp"
+#include "qmcf/mesh/triangle_mesh.hpp"
+#include "qmcf/sizing/size_field.hpp"
+#include "remesh_mesh.hpp"
+
+namespace qmcf {
+
+/// What the vertices of a remesh aim at.
+struct RemeshTargets {
+  double base = 0.0;             ///< Size of the quad mesh away from everything.
+  double gradation = 0.2;        ///< Largest slope of the size.
+  double relativeSize = 0.8;     ///< Length of triangle edges in units of the size.
+  std::vector<double> nodeSize;  ///< Per vertex of the mesh: size at nodes, 0 elsewhere.
+  std::vector<double> spacing;   ///< Per vertex of the mesh: distance of nodes to their neighbours, 0 elsewhere.
+};
+
+/// Isotropic remeshing of a face with a fixed boundary of nodes: Botsch and Kobbelt 2004, with the order and the checks
+/// that coarse CAD facets need. Every operation keeps the topology and turns no triangle over.
+class Remesher {
+ public:
+  Remesher(RemeshMesh& mesh, const FaceReference& reference, const RemeshTargets& targets)
+      : mesh_(mesh), reference_(reference), targets_(targets) {}
+
+  /// Computes `size` and `length` for all vertices, by gradation from the nodes along the mesh's edges.
+  void updateSizes();
+  /// Removes boundary points along the boundary where no triangle turns over; returns how many are left.
+  std::int32_t removePoints();
+  /// Removes a boundary point even where triangles turn over. Returns false if the topology does not allow it.
+  bool forcePoint(std::int32_t v);
+  /// Shrinks short edges inside; returns how many.
+  std::int32_t collapseShort();
+  /// Splits long edges inside, and edges between two boundary vertices where there is room for a vertex.
+  void splitLong();
+  /// Flips edges where that makes better triangles.
+  void flipEdges();
+  /// Moves vertices inside towards the middle of their neighbours, then onto the face.
+  void smooth(int sweeps);
+
+  [[nodiscard]] const std::vector<double>& size() const { return size_; }
+
+ private:
+  [[nodiscard]] double edgeLength(std::int32_t a, std::int32_t b) const;
+  [[nodiscard]] double quality(std::int32_t a, std::int32_t b, std::int32_t c) const;
+  [[nodiscard]] bool looksOutward(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& normal) const;
+  [[nodiscard]] bool tryCollapse(std::int32_t h, std::int32_t removed);
+  [[nodiscard]] bool keepsShape(std::int32_t removed, std::int32_t kept, double longest);
+  [[nodiscard]] bool wantsFlip(std::int32_t h) const;
+  [[nodiscard]] bool tryMove(std::int32_t v, const Vec3& to, const Vec3& normal);
+  void splitEdge(std::int32_t h);
+  [[nodiscard]] bool isTooLong(std::int32_t h) const;
+  [[nodiscard]] bool isLongInSliver(std::int32_t h) const;
+  [[nodiscard]] bool joinsBoundary(std::int32_t a, std::int32_t b) const;
+
+  RemeshMesh& mesh_;
+  const FaceReference& reference_;
+  const RemeshTargets& targets_;
+  std::vector<double> size_;    ///< Per vertex: target size of the quad mesh.
+  std::vector<double> length_;  ///< Per vertex: target length of triangle edges.
+};
+
+}  // namespace qmcf
