@@ -191,10 +191,17 @@ class Canceller {
     return sum;
   }
 
-  [[nodiscard]] std::int32_t charge(const IdMap<TriangleId, std::int32_t>& index) const {
-    std::int32_t sum = 0;
-    for (const std::int32_t i : index.raw()) sum += std::abs(i);
-    return sum;
+  /// The triangles with a corner in the region, and their indices as the crosses are now.
+  [[nodiscard]] std::vector<std::pair<TriangleId, std::int32_t>> indicesAround(
+      const std::vector<VertexId>& free) const {
+    std::vector<std::pair<TriangleId, std::int32_t>> indices;
+    for (const VertexId v : free) {
+      surface_.forEachOutgoing(v, [&](HalfedgeId h) { indices.emplace_back(Surface::triangle(h), 0); });
+    }
+    std::sort(indices.begin(), indices.end());
+    indices.erase(std::unique(indices.begin(), indices.end()), indices.end());
+    for (auto& [t, index] : indices) index = triangleIndex(surface_, connection_, cross_, t);
+    return indices;
   }
 
   bool remove(const Pair& pair) {
@@ -210,10 +217,12 @@ class Canceller {
     const double energyBefore = energy(free);
     const bool solved = smooth(free);
     for (const HalfedgeId h : pair.crossed) jump_[h] = jump_[surface_.twin(h)] = 0;
-    IdMap<TriangleId, std::int32_t> after = triangleIndices(surface_, connection_, cross_);
+    const auto after = indicesAround(free);
+    std::int32_t change = 0;
+    for (const auto& [t, index] : after) change += std::abs(index) - std::abs(index_[t]);
     const double allowed = pair.distance < close_ ? kCloseGrowth * energyBefore : energyBefore;
-    if (solved && charge(after) < charge(index_) && energy(free) <= allowed) {
-      index_ = std::move(after);
+    if (solved && change < 0 && energy(free) <= allowed) {
+      for (const auto& [t, index] : after) index_[t] = index;
       return true;
     }
     for (std::size_t i = 0; i < free.size(); ++i) cross_[free[i]] = before[i];

@@ -23,21 +23,33 @@ FieldMatrices assemble(const Patch& patch, const Connection& connection, const F
 /// The linear solve; every cross of length 1.
 Result<Smoothest> solveLinear(const FieldMatrices& matrices, const FieldConditions& conditions,
                               const FieldOptions& options, Progress& progress) {
-  const bool pinned = std::any_of(conditions.pinned.begin(), conditions.pinned.end(), [](auto p) { return p != 0; });
-  Smoothest result;
-  if (pinned || conditions.pull.maxCoeff() > 0.0) {
-    Result<FieldVector> solved = options.solver == FieldSolver::leastSquares
-                                     ? solveLeastSquares(matrices, conditions, std::min(options.shift, 0.0))
-                                     : solveEliminated(matrices, conditions);
+  if (!conditions.any()) return solveSmoothest(matrices, progress);
+  Result<FieldVector> solved = options.solver == FieldSolver::leastSquares
+                                   ? solveLeastSquares(matrices, conditions, std::min(options.shift, 0.0))
+                                   : solveEliminated(matrices, conditions);
+  if (!solved) return solved.error();
+  return Smoothest{std::move(solved).value(), 0.0};
+}
+
+/// The crosses, of length 1, as the options want them solved.
+Result<Smoothest> solveField(const FieldMatrices& matrices, const FieldConditions& conditions,
+                             const FieldOptions& options, Progress& progress) {
+  DiffusionSchedule schedule;
+  schedule.finalLength = options.diffusionLength;
+  if (options.diffuse && options.solver == FieldSolver::eliminate) {
+    Result<FieldVector> solved = solveDiffused(matrices, conditions, schedule, progress);
     if (!solved) return solved.error();
-    result.field = std::move(solved).value();
-  } else {
-    Result<Smoothest> solved = solveSmoothest(matrices, progress);
-    if (!solved) return solved.error();
-    result = std::move(solved).value();
+    return Smoothest{std::move(solved).value(), 0.0};
   }
-  normaliseCrosses(result.field, FieldVector::Ones(result.field.size()));
-  return result;
+  Result<Smoothest> solved = solveLinear(matrices, conditions, options, progress);
+  if (!solved) return solved.error();
+  FieldVector& u = solved.value().field;
+  normaliseCrosses(u, FieldVector::Ones(u.size()));
+  if (options.diffuse) {
+    const Result<Done> diffused = diffuse(matrices, conditions, schedule, u, progress);
+    if (!diffused) return diffused.error();
+  }
+  return solved;
 }
 
 /// Adds what curvature says: pull and, where it is reliable and consistent, pins.
@@ -69,15 +81,9 @@ Result<CrossField> computeCrossField(const Patch& patch, const std::vector<std::
   addCurvature(patch, connection, matrices, options, conditions);
   if (!progress.report(Stage::field, 0.1)) return cancelledError();
 
-  Result<Smoothest> solved = solveLinear(matrices, conditions, options, progress);
+  Result<Smoothest> solved = solveField(matrices, conditions, options, progress);
   if (!solved) return solved.error();
   FieldVector& u = solved.value().field;
-  if (options.diffuse) {
-    DiffusionSchedule schedule;
-    schedule.finalLength = options.diffusionLength;
-    const Result<Done> diffused = diffuse(matrices, conditions, schedule, u, progress);
-    if (!diffused) return diffused.error();
-  }
   if (options.cancelDistance > 0.0) {
     const Result<std::int32_t> removed =
         cancelPairs(patch, connection, matrices, conditions, options.cancelDistance, u, progress);

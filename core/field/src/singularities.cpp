@@ -15,14 +15,17 @@ double crossTurn(const Surface& surface, const Connection& connection,
   return math::arg(cross[surface.target(h)] * std::conj(moved));
 }
 
+std::int32_t triangleIndex(const Surface& surface, const Connection& connection,
+                           const IdMap<VertexId, std::complex<double>>& cross, TriangleId t) {
+  double turn = 4.0 * triangleCurvature(connection, t);
+  for (int c = 0; c < 3; ++c) turn += crossTurn(surface, connection, cross, Surface::halfedge(t, c));
+  return static_cast<std::int32_t>(std::floor(turn / (2.0 * math::kPi) + 0.5));
+}
+
 IdMap<TriangleId, std::int32_t> triangleIndices(const Surface& surface, const Connection& connection,
                                                 const IdMap<VertexId, std::complex<double>>& cross) {
   IdMap<TriangleId, std::int32_t> index(surface.triangleCount(), 0);
-  for (const TriangleId t : surface.triangles()) {
-    double turn = 4.0 * triangleCurvature(connection, t);
-    for (int c = 0; c < 3; ++c) turn += crossTurn(surface, connection, cross, Surface::halfedge(t, c));
-    index[t] = static_cast<std::int32_t>(std::floor(turn / (2.0 * math::kPi) + 0.5));
-  }
+  for (const TriangleId t : surface.triangles()) index[t] = triangleIndex(surface, connection, cross, t);
   return index;
 }
 

@@ -9,7 +9,11 @@ namespace qmcf {
 double crossTurn(const Surface& surface, const Connection& connection,
                  const IdMap<VertexId, std::complex<double>>& cross, HalfedgeId h);
 
-/// Quarter turns of the field around every triangle (A6 of docs/algorithm.md).
+/// Quarter turns of the field around a triangle (A6 of docs/algorithm.md).
+std::int32_t triangleIndex(const Surface& surface, const Connection& connection,
+                           const IdMap<VertexId, std::complex<double>>& cross, TriangleId t);
+
+/// The same of every triangle.
 IdMap<TriangleId, std::int32_t> triangleIndices(const Surface& surface, const Connection& connection,
                                                 const IdMap<VertexId, std::complex<double>>& cross);
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "free_part.hpp"
+#include "level.hpp"
 #include "qmcf/base/math.hpp"
 #include "qmcf/base/random.hpp"
 
@@ -20,24 +21,10 @@ double smallShift(const FieldMatrices& matrices) {
   return kShift * std::max(matrices.energy.diagonal().real().sum(), 1e-300) / matrices.area.sum();
 }
 
-/// The energy of the unknowns, plus the pull.
-FieldMatrix pulledEnergy(const FieldMatrices& matrices, const FieldConditions& conditions, const FreePart& free) {
-  FieldMatrix system = free.block(matrices.energy);
-  for (Eigen::Index i = 0; i < free.size(); ++i) {
-    const Eigen::Index v = free.vertex(i);
-    system.coeffRef(i, i) += conditions.pull[v] * matrices.area[v];
-  }
-  return system;
-}
-
-FieldVector pullSide(const FieldMatrices& matrices, const FieldConditions& conditions, const FreePart& free) {
-  FieldVector side(free.size());
-  for (Eigen::Index i = 0; i < free.size(); ++i) {
-    const Eigen::Index v = free.vertex(i);
-    side[i] = conditions.pull[v] * matrices.area[v] * conditions.guide[v];
-  }
-  return side;
-}
+/// Unknowns up to which the whole diffusion is done in full size.
+constexpr Eigen::Index kDirectSize = 4000;
+/// Length of the last time step on clusters, in units of their spacing.
+constexpr double kClusterReach = 2.5;
 
 }  // namespace
 
@@ -59,14 +46,18 @@ void normaliseCrosses(FieldVector& field, const FieldVector& fallback) {
   }
 }
 
+bool FieldConditions::any() const {
+  return pull.maxCoeff() > 0.0 || std::any_of(pinned.begin(), pinned.end(), [](auto p) { return p != 0; });
+}
+
 Result<FieldVector> solveEliminated(const FieldMatrices& matrices, const FieldConditions& conditions) {
   const FreePart free(conditions.pinned);
   FieldVector field = conditions.value;
   if (free.size() == 0) return field;
-  FieldFactor factor(pulledEnergy(matrices, conditions, free));
+  const Level level = finestLevel(matrices, conditions, free);
+  const FieldFactor factor(level.energy);
   if (factor.info() != Eigen::Success) return unsolvable();
-  const FieldVector side = pullSide(matrices, conditions, free) - free.given(matrices.energy, conditions.value);
-  free.insert(factor.solve(side), field);
+  free.insert(factor.solve(level.side), field);
   return field;
 }
 
@@ -115,37 +106,50 @@ Result<Done> diffuse(const FieldMatrices& matrices, const FieldConditions& condi
                      const DiffusionSchedule& schedule, FieldVector& field, Progress& progress) {
   const FreePart free(conditions.pinned);
   if (free.size() == 0) return Done{};
-  const FieldMatrix energy = pulledEnergy(matrices, conditions, free);
-  const FieldVector side = pullSide(matrices, conditions, free) - free.given(matrices.energy, conditions.value);
-  Eigen::VectorXd cells(free.size());
-  for (Eigen::Index i = 0; i < free.size(); ++i) cells[i] = matrices.cells[free.vertex(i)];
-
-  // The first step reaches a fifth of the radius of the disk of the same area.
+  const Level level = finestLevel(matrices, conditions, free);
   const double last = schedule.finalLength * schedule.finalLength;
-  const double first = std::max(last, 0.04 / math::kPi * matrices.cells.sum());
-  const int levels = 1 + static_cast<int>(std::floor(math::log(first / last) / math::log(schedule.factor) + 0.5));
-  FieldFactor factor;
-  factor.analyzePattern(energy);
-  FieldVector current = free.restrict(field);
-  double time = last;
-  for (int level = 1; level < levels; ++level) time *= schedule.factor;
-  for (int level = 0; level < levels; ++level, time /= schedule.factor) {
-    FieldMatrix system = time * energy;
-    for (Eigen::Index i = 0; i < free.size(); ++i) system.coeffRef(i, i) += cells[i];
-    factor.factorize(system);
-    if (factor.info() != Eigen::Success) return unsolvable();
-    for (int step = 0; step < schedule.stepsPerLevel; ++step) {
-      const double done = (level + static_cast<double>(step) / schedule.stepsPerLevel) / levels;
-      if (!progress.report(Stage::field, 0.4 + 0.5 * done)) return cancelledError();
-      FieldVector next = factor.solve(cells.cwiseProduct(current) + time * side);
-      normaliseCrosses(next, current);
-      const double change = std::sqrt((next - current).squaredNorm() / static_cast<double>(free.size()));
-      current.swap(next);
-      if (change < schedule.tolerance) break;
-    }
-  }
-  free.insert(current, field);
+  FieldVector unknowns = free.restrict(field);
+  const Result<Done> done =
+      diffuseLevel(level, {firstTimeStep(level, last), last, 0.4, 0.9}, schedule, unknowns, progress);
+  if (!done) return done.error();
+  free.insert(unknowns, field);
   return Done{};
+}
+
+Result<FieldVector> solveDiffused(const FieldMatrices& matrices, const FieldConditions& conditions,
+                                  const DiffusionSchedule& schedule, Progress& progress) {
+  const FreePart free(conditions.pinned);
+  FieldVector field = conditions.value;
+  if (free.size() == 0) return field;
+  const Level finest = finestLevel(matrices, conditions, free);
+  std::vector<Clusters> coarser;
+  const auto level = [&](std::size_t depth) -> const Level& { return depth == 0 ? finest : coarser[depth - 1].level; };
+  while (level(coarser.size()).size() > kDirectSize) {
+    if (!progress.report(Stage::field, 0.2)) return cancelledError();
+    Clusters next = coarsen(level(coarser.size()));
+    if (2 * next.level.size() > level(coarser.size()).size()) break;
+    coarser.push_back(std::move(next));
+  }
+  std::size_t depth = coarser.size();
+  Result<FieldVector> unknowns = solveLevel(level(depth));
+  if (!unknowns) return unknowns.error();
+  FieldVector& u = unknowns.value();
+  // Each level takes about four times as long as the coarser one before.
+  const auto at = [&](std::size_t begun) {
+    return begun > coarser.size() ? 0.2 : 0.2 + 0.7 / static_cast<double>(std::int64_t{1} << (2 * begun));
+  };
+  for (;; --depth) {
+    const double reach =
+        depth == 0 ? schedule.finalLength : std::max(schedule.finalLength, kClusterReach * level(depth).spacing());
+    const double first = depth == coarser.size() ? firstTimeStep(level(depth), reach * reach) : reach * reach;
+    const Result<Done> done =
+        diffuseLevel(level(depth), {first, reach * reach, at(depth + 1), at(depth)}, schedule, u, progress);
+    if (!done) return done.error();
+    if (depth == 0) break;
+    u = coarser[depth - 1].spread(u);
+  }
+  free.insert(u, field);
+  return field;
 }
 
 }  // namespace qmcf

@@ -76,7 +76,7 @@ struct CrossField {
   /// boundary curve was cut into chords: there the field follows the tangent at the node and the chord in its middle.
   IdMap<TriangleId, std::array<double, 3>> tangentTurn;
   std::vector<Singularity> singularities;  ///< By triangle.
-  double eigenvalue = 0.0;  ///< The least one, where nothing is pinned and nothing guides the field; else 0.
+  double eigenvalue = 0.0;  ///< The least one, where nothing is pinned, guides or diffuses the field; else 0.
   double energy = 0.0;      ///< Dirichlet energy of the normalised field, half of u^H A u.
 };
 
