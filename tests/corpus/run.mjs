@@ -1,92 +1,161 @@
-// Meshes parts that are not part of the project and has an independent program judge the result.
-//
-//   node tests/corpus/run.mjs --models FOLDER --judge JUDGE.mjs [--quads 3000] [--keep FOLDER] [PART...]
-//
-// Prints one line per part and ends with 1 when one of them took longer than 30 s, is not valid, has less than 90 % quads,
-// or lost more than 1 % of the sharp edges or corners where the part has clean ones.
+// Meshes every model of a folder with the native program and has each result judged.
 
-import { spawnSync } from 'node:child_process';
-import { mkdirSync, mkdtempSync, rmSync } from 'node:fs';
+import { existsSync, mkdirSync, mkdtempSync, readdirSync, readFileSync, statSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
-import { join } from 'node:path';
+import { basename, dirname, join, resolve } from 'node:path';
+import { fileURLToPath } from 'node:url';
 import { parseArgs } from 'node:util';
+import { runMeasured } from './child.mjs';
+import { compareResults, resultTable, summaryLine } from './table.mjs';
+import { judgeMesh } from './verdict.mjs';
 
-const root = join(import.meta.dirname, '../..');
-const kSecondsAllowed = 30;
-const kDefaultParts = ['fandisk.obj', 'plate_holes.STL', 'rocker-arm.obj', 'spot.obj', 'circle_2d.obj', 'hinge.stl'];
-const kCleanFeatures = ['fandisk.obj', 'plate_holes.STL', 'hinge.stl'];
+const ROOT = resolve(dirname(fileURLToPath(import.meta.url)), '../..');
+const USAGE = `usage: tests/corpus/run [FOLDER or FILE ...] [options] [-- options of qmcf mesh]
+  FOLDER, FILE     models (.obj, .stl, .ply); default: ../shared/models if it exists, else samples
+  --quads N        elements to aim at (3000)
+  --jobs N         models at a time (2)
+  --timeout S      seconds per model (120)
+  --only REGEX     models whose name matches
+  --qmcf PATH      the program (build/native/bin/qmcf)
+  --judge PATH     the judge; default: QMCF_JUDGE or ../shared/judge/judge.mjs if it exists; none: qmcf check
+  --samples N      the judge's surface samples in each direction (30000)
+  --out DIR        where the meshes go (a new temporary folder)
+  --pictures       draw each mesh beside it, with its part's features
+  --json FILE      write the results
+  --base FILE      compare with the results of an earlier --json
+  --demands FILE   only the parts named there, each of which has to reach the figures given for it (demands.json)
+exit status: 0 each mesh valid or its part refused with a reason (exit 3); 1 otherwise, or worse than the base, or below
+what is demanded; 2 wrong usage`;
 
-const { values, positionals } = parseArgs({
-  allowPositionals: true,
-  options: {
-    models: { type: 'string' },
-    judge: { type: 'string' },
-    quads: { type: 'string', default: '3000' },
-    keep: { type: 'string' },
-  },
-});
-if (!values.models || !values.judge) {
-  console.error('usage: run.mjs --models FOLDER --judge JUDGE.mjs [--quads 3000] [--keep FOLDER] [PART...]');
-  process.exit(2);
-}
+const VERDICT_OF_EXIT = { 3: 'REFUSED' };
 
-const percent = (share) => (share === null || share === undefined ? '-' : `${(100 * share).toFixed(1)} %`);
-
-/** What is wrong with a judged mesh; empty when nothing is. */
-function faults(part, report) {
-  const { quads, triangles } = report.composition;
-  const found = report.validity.checks.filter(({ status }) => status === 'fail').map(({ name }) => name);
-  if (quads < 0.9 * (quads + triangles)) found.push('less than 90 % quads');
-  if (kCleanFeatures.includes(part)) {
-    if (!(report.features.sharp.recall >= 0.99)) found.push('sharp edges lost');
-    if (!(report.features.corners.recall >= 0.99)) found.push('corners lost');
-  }
-  return found;
-}
-
-function tryPart(part, folder) {
-  const input = join(values.models, part);
-  const output = join(folder, `${part.replace(/\.[^.]*$/, '')}.obj`);
-  const begin = performance.now();
-  const args = ['mesh', input, '-o', output, '--quads', values.quads, '--quiet'];
-  const run = spawnSync(join(root, 'build/native/bin/qmcf'), args, {
-    encoding: 'utf8',
-    timeout: 1000 * kSecondsAllowed,
-    killSignal: 'SIGKILL',
+function parseCommandLine(args) {
+  const text = { type: 'string' };
+  const separator = args.indexOf('--');
+  const own = separator < 0 ? args : args.slice(0, separator);
+  const { values, positionals } = parseArgs({
+    args: own,
+    allowPositionals: true,
+    options: {
+      quads: text, jobs: text, timeout: text, only: text, qmcf: text, judge: text, samples: text, out: text, json: text, base: text,
+      demands: text, pictures: { type: 'boolean' }, help: { type: 'boolean' },
+    },
   });
-  const seconds = (performance.now() - begin) / 1000;
-  if (run.status !== 0) {
-    const why = run.error?.code === 'ETIMEDOUT' ? `not done after ${kSecondsAllowed} s` : run.stderr.trim();
-    return { seconds, faults: [why || `exit ${run.status ?? run.signal}`] };
-  }
-  const judged = spawnSync(process.execPath, [values.judge, '--json', '--samples', '5000', '--ref', input, output], {
-    encoding: 'utf8',
-    maxBuffer: 2 ** 28,
-  });
-  if (!judged.stdout.startsWith('{')) return { seconds, faults: [`not judged: ${judged.stderr.trim()}`] };
-  const report = JSON.parse(judged.stdout);
-  return { seconds, report, faults: faults(part, report) };
+  const number = (name, fallback) => {
+    const value = Number(values[name] ?? fallback);
+    if (!(value > 0)) throw new Error(`--${name} needs a positive number`);
+    return value;
+  };
+  return {
+    ...values,
+    inputs: positionals.length ? positionals : [firstExisting([join(ROOT, '../shared/models')]) ?? join(ROOT, 'samples')],
+    quads: number('quads', 3000),
+    jobs: number('jobs', 2),
+    timeout: number('timeout', 120),
+    samples: number('samples', 30000),
+    qmcf: resolve(values.qmcf ?? join(ROOT, 'build/native/bin/qmcf')),
+    judge: findJudge(values.judge),
+    demands: values.demands && JSON.parse(readFileSync(values.demands, 'utf8')),
+    out: resolve(values.out ?? mkdtempSync(join(tmpdir(), 'qmcf-corpus-'))),
+    extra: separator < 0 ? [] : args.slice(separator + 1),
+  };
 }
 
-const folder = values.keep ?? mkdtempSync(join(tmpdir(), 'qmcf-corpus-'));
-mkdirSync(folder, { recursive: true });
-let failed = 0;
-for (const part of positionals.length > 0 ? positionals : kDefaultParts) {
-  const result = tryPart(part, folder);
-  const figures = [`${part}: ${result.seconds.toFixed(1)} s`];
-  if (result.report) {
-    const { composition, regularity, quality, features } = result.report;
-    figures.push(
-      `${composition.quads} quads`,
-      `${composition.triangles} triangles`,
-      `regular ${percent(regularity.regular_share)}`,
-      `scaled Jacobian ${quality.quads.scaled_jacobian.mean?.toFixed(3)}`,
-      `sharp edges ${percent(features?.sharp.recall)}`,
-      `corners ${percent(features?.corners.recall)}`,
-    );
-  }
-  console.log(`${figures.join(', ')}: ${result.faults.length === 0 ? 'good' : `BAD (${result.faults.join('; ')})`}`);
-  if (result.faults.length > 0) ++failed;
+const firstExisting = (paths) => paths.find((path) => path && existsSync(path));
+
+function findJudge(given) {
+  if (given === 'none') return null;
+  if (given && !existsSync(given)) throw new Error(`${given}: no such judge`);
+  return firstExisting([given, process.env.QMCF_JUDGE, join(ROOT, '../shared/judge/judge.mjs')]) ?? null;
 }
-if (!values.keep) rmSync(folder, { recursive: true });
-process.exit(failed > 0 ? 1 : 0);
+
+function findModels({ inputs, only, demands }) {
+  const wanted = only === undefined ? /^/ : new RegExp(only);
+  const isModel = (name) => /\.(obj|stl|ply)$/i.test(name) && wanted.test(name) && (!demands || name in demands);
+  return inputs.flatMap((input) => {
+    if (!statSync(input).isDirectory()) return [input];
+    return readdirSync(input).filter(isModel).sort().map((name) => join(input, name));
+  });
+}
+
+async function measureModel(part, options) {
+  const model = basename(part);
+  const mesh = join(options.out, `${model}.quads.obj`);
+  const args = ['mesh', part, '-o', mesh, '--quads', String(options.quads), '--quiet', ...options.extra];
+  const run = await runMeasured(options.qmcf, args, options.timeout);
+  const { seconds, cpuSeconds, peakMegabytes } = run;
+  const result = { model, seconds, cpuSeconds, peakMegabytes, exit: run.exit };
+  if (run.timedOut) return { ...result, verdict: 'TIMEOUT', message: `after ${options.timeout} s` };
+  if (run.signal) return { ...result, verdict: 'CRASH', message: `signal ${run.signal}` };
+  if (run.exit !== 0) {
+    return { ...result, verdict: VERDICT_OF_EXIT[run.exit] ?? 'FAILED', message: `exit ${run.exit}: ${run.stderr.trim().split('\n').pop()}` };
+  }
+  const { valid, ...figures } = await judgeMesh(options, part, mesh);
+  if (options.pictures) await drawMesh(part, mesh);
+  return demand({ ...result, verdict: valid ? 'VALID' : 'INVALID', ...figures }, options.demands?.[model]);
+}
+
+/**
+ * A valid mesh that misses a figure demanded of it is not good enough. Seconds are a limit, the others least values; a
+ * figure that the part does not have (no corners, say) can't be missed.
+ */
+function demand(result, figures = {}) {
+  const missed = Object.entries(figures)
+    .filter(([name, value]) => result[name] !== null && !(name === 'seconds' ? result.seconds <= value : result[name] >= value))
+    .map(([name, value]) => `${name} ${Number(result[name]?.toPrecision(4) ?? NaN)}, not ${value}`);
+  if (missed.length === 0) return result;
+  return { ...result, verdict: result.verdict === 'VALID' ? 'BELOW' : result.verdict, failing: [...result.failing, ...missed] };
+}
+
+async function drawMesh(part, mesh) {
+  const args = [join(ROOT, 'tests/tools/render.mjs'), mesh, mesh.replace(/\.obj$/, '.png')];
+  if (!/\.ply$/i.test(part)) args.push('--ref', part);
+  const run = await runMeasured(process.execPath, args, 120);
+  if (run.exit !== 0) console.error(run.stderr.trim());
+}
+
+/** Works on the models with as many runs at a time as there are jobs; results are in the order of the models. */
+async function measureAll(models, options) {
+  const results = new Array(models.length);
+  let next = 0;
+  const work = async () => {
+    while (next < models.length) {
+      const i = next++;
+      results[i] = await measureModel(models[i], options);
+      const { model, verdict, cpuSeconds, message } = results[i];
+      console.error(`${i + 1}/${models.length} ${model} ${verdict} ${cpuSeconds?.toFixed(2) ?? '-'} s ${message ?? ''}`);
+    }
+  };
+  await Promise.all(Array.from({ length: options.jobs }, work));
+  return results;
+}
+
+async function main(args) {
+  const options = parseCommandLine(args);
+  if (options.help) {
+    console.log(USAGE);
+    return 0;
+  }
+  if (!existsSync(options.qmcf)) throw new Error(`${options.qmcf}: not built; cmake --preset native && cmake --build --preset native`);
+  const models = findModels(options);
+  if (models.length === 0) throw new Error('no models');
+  mkdirSync(options.out, { recursive: true });
+  const results = await measureAll(models, options);
+  console.log(resultTable(results));
+  console.log(`\n${summaryLine(results)}\nmeshes in ${options.out}${options.judge ? '' : '; judged by qmcf check, not by an independent judge'}`);
+  if (options.json) writeFileSync(options.json, JSON.stringify({ quads: options.quads, extra: options.extra, results }, null, 1));
+  let failed = results.some(({ verdict }) => verdict !== 'VALID' && verdict !== 'REFUSED');
+  if (options.base) {
+    const { text, worse } = compareResults(JSON.parse(readFileSync(options.base, 'utf8')).results, results);
+    console.log(`\ncompared with ${options.base} (+ better, - worse):\n${text}`);
+    failed ||= worse;
+  }
+  return failed ? 1 : 0;
+}
+
+try {
+  process.exitCode = await main(process.argv.slice(2));
+} catch (error) {
+  console.error(`${error.message}\n${USAGE}`);
+  process.exitCode = 2;
+}
