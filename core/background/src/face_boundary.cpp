@@ -62,8 +62,8 @@ class CoedgeSplitter {
   CoedgeSplitter(RemeshMesh& mesh, const DividedEdges& divided, NodesOnWay way, double length)
       : mesh_(mesh), divided_(divided), way_(std::move(way)), tolerance_(1e-9 * length) {}
 
-  /// The half-edge h covers [from, to] of the coedge.
-  void splitSegment(std::int32_t h, double from, double to) {
+  /// The half-edge h covers [from, to] of the coedge. Nodes at its end are put there unless the coedge ends, too.
+  void splitSegment(std::int32_t h, double from, double to, bool isLast) {
     const Vec3 startNormal = mesh_.normal[index(mesh_.origin(h))];
     const Vec3 endNormal = mesh_.normal[index(mesh_.target(h))];
     for (; next_ < way_.node.size(); ++next_) {
@@ -71,7 +71,7 @@ class CoedgeSplitter {
       if (s > to + tolerance_) return;
       const std::int32_t node = way_.node[next_];
       const Vec3& position = divided_.nodes[index(node)];
-      if (s >= to - tolerance_ && mesh_.role[index(mesh_.target(h))] == VertexRole::point) {
+      if (s >= to - tolerance_ && !isLast) {
         makeNode(mesh_, mesh_.target(h), node, position);
         ++next_;
         return;
@@ -93,31 +93,30 @@ class CoedgeSplitter {
   std::size_t next_ = 0;
 };
 
+/// Walks along the loop by its vertices: splitting a triangle's side may give its other sides new half-edges.
 void splitLoop(RemeshMesh& mesh, FaceBoundary& boundary, const TriangleMesh& input, const Brep& brep,
-               const BrepLoop& loop, const std::vector<HalfedgeId>& halfedges, const DividedEdges& divided) {
-  std::size_t next = 0;
+               const BrepLoop& loop, std::int32_t start, const DividedEdges& divided) {
+  std::int32_t vertex = start;
   for (const Coedge& coedge : loop.coedges) {
     const auto mark = static_cast<std::int32_t>(boundary.coedges.size());
     const BrepEdge& edge = brep.edges[index(coedge.edge)];
     const EdgeCurve curve = edgeCurve(input, edge);
     const std::size_t segments = curve.points.size() - 1;
-    const std::int32_t first = mesh.origin(halfedges[next].value);
     const std::int32_t startNode = coedge.reversed ? edge.end : edge.start;
-    makeNode(mesh, first, startNode, divided.nodes[index(startNode)]);
+    makeNode(mesh, vertex, startNode, divided.nodes[index(startNode)]);
     boundary.coedges.push_back(coedge);
-    boundary.firstVertex.push_back(first);
-    for (std::size_t i = 0; i < segments; ++i) mesh.setMark(halfedges[next + i].value, mark);
-    // The end of the coedge is the start of another one: it must not be taken for a point.
-    const std::int32_t last = mesh.target(halfedges[next + segments - 1].value);
-    mesh.role[index(last)] = VertexRole::node;
+    boundary.firstVertex.push_back(vertex);
     CoedgeSplitter splitter(mesh, divided, nodesOnWay(divided.edges[index(coedge.edge)], coedge.reversed),
                             curve.length());
-    for (std::size_t i = 0; i < segments; ++i, ++next) {
+    for (std::size_t i = 0; i < segments; ++i) {
       const std::size_t a = coedge.reversed ? segments - i : i;
       const std::size_t b = coedge.reversed ? a - 1 : a + 1;
       const double from = coedge.reversed ? curve.length() - curve.arcLength[a] : curve.arcLength[a];
       const double to = coedge.reversed ? curve.length() - curve.arcLength[b] : curve.arcLength[b];
-      splitter.splitSegment(halfedges[next].value, from, to);
+      const std::int32_t h = mesh.outgoing(vertex);
+      vertex = mesh.target(h);
+      mesh.setMark(h, mark);
+      splitter.splitSegment(h, from, to, i + 1 == segments);
     }
   }
 }
@@ -144,7 +143,7 @@ FaceBoundary insertNodes(RemeshMesh& mesh, const TriangleMesh& input, const Brep
   FaceBoundary boundary;
   const BrepFace& from = brep.faces[index(face)];
   for (std::size_t l = 0; l < from.loops.size(); ++l) {
-    splitLoop(mesh, boundary, input, brep, from.loops[l], cut.loops[l], divided);
+    splitLoop(mesh, boundary, input, brep, from.loops[l], cut.surface.origin(cut.loops[l].front()).value, divided);
   }
   measureSpacing(mesh, boundary, divided);
   return boundary;
