@@ -36,7 +36,7 @@ class Advance {
   void enqueue(HalfedgeId h);
   void enqueueAround(const std::vector<VertexId>& vertices);
   bool advanceFrom(HalfedgeId h, int pass);
-  std::vector<SideProposal> sides(HalfedgeId sector, int wanted, bool left, const std::optional<Vec3>& closure) const;
+  std::vector<SideProposal> sides(HalfedgeId sector, int wanted, bool left, const std::optional<Vec3>& closure, int pass) const;
   bool tryQuad(HalfedgeId base, const SideProposal& left, const SideProposal& right, int pass);
   VertexId realize(HalfedgeId sector, const SideProposal& side);
   int oddLoops(const std::vector<HalfedgeId>& edges) const;
@@ -110,9 +110,9 @@ VertexId Advance::realize(HalfedgeId sector, const SideProposal& side) {
   return insertVertex(front_, sector, side.vertex, kReuse * front_.sizeAt(side.vertex.location));
 }
 
-std::vector<SideProposal> Advance::sides(HalfedgeId sector, int wanted, bool left, const std::optional<Vec3>& closure) const {
+std::vector<SideProposal> Advance::sides(HalfedgeId sector, int wanted, bool left, const std::optional<Vec3>& closure, int pass) const {
   const EditMesh& view = front_.mesh();
-  if (wanted > 1) return proposeSide(front_, {sector, wanted, left, closure}, options_);
+  if (wanted > 1) return proposeSide(front_, {sector, wanted, left, closure, pass + 1 == kPasses}, options_);
   SideProposal there;
   there.existing = left ? view.origin(front_.previousFront(sector)) : view.target(sector);
   there.vertex = view.vertex(there.existing);
@@ -162,8 +162,8 @@ bool Advance::advanceFrom(HalfedgeId h, int pass) {
   std::optional<Vec3> rightClosure;
   if (wantedLeft == 1 && wantedRight == 2) rightClosure = b + (m.position(m.origin(front_.previousFront(h))) - a);
   if (wantedRight == 1 && wantedLeft == 2) leftClosure = a + (m.position(m.target(following)) - b);
-  const auto lefts = sides(h, wantedLeft, true, leftClosure);
-  const auto rights = sides(following, wantedRight, false, rightClosure);
+  const auto lefts = sides(h, wantedLeft, true, leftClosure, pass);
+  const auto rights = sides(following, wantedRight, false, rightClosure, pass);
   std::vector<std::pair<double, std::pair<std::size_t, std::size_t>>> order;
   for (std::size_t i = 0; i < lefts.size(); ++i) {
     for (std::size_t j = 0; j < rights.size(); ++j) order.push_back({lefts[i].cost + rights[j].cost, {i, j}});
@@ -329,8 +329,8 @@ Result<FrontResult> Advance::run(Progress& progress) {
   std::vector<HalfedgeId> failed;
   int pass = 0;
   bool advanced = false;
-  // Every success consumes open area, every failure waits for one: bounded by the number of quads times the passes.
-  const std::size_t maxSteps = 10000 + 400 * front_.patch().surface.triangleCount();
+  // Every success consumes open area and every failure waits for one; the bound is far above what that takes.
+  const std::size_t maxSteps = 2000 + 40 * front_.patch().surface.triangleCount();
   for (std::size_t step = 0; step < maxSteps; ++step) {
     if (step % 64 == 0 && !progress.report(Stage::front, std::min(1.0, static_cast<double>(statistics_.quads) / expected))) {
       return cancelledError();

@@ -148,11 +148,17 @@ std::vector<SideProposal> proposeSide(const FrontMesh& front, const SideRequest&
     proposal.cost = cost;
     proposals.push_back(proposal);
   }
-  SideProposal created;
-  created.vertex = trace.end;
-  created.cost = crowded || joins ? kLastResortCost : proposals.empty() ? 0.0 : options.snapRadius;
-  if (joins) created.vertex = front.vertexNear(trace.end.location, (position + trace.end.position) * 0.5);
-  proposals.push_back(created);
+  if (!(crowded || joins)) {
+    SideProposal created;
+    created.vertex = trace.end;
+    created.cost = proposals.empty() ? 0.0 : options.snapRadius;
+    proposals.push_back(created);
+  } else if (request.lastResort) {
+    SideProposal created;
+    created.vertex = joins ? front.vertexNear(trace.end.location, (position + trace.end.position) * 0.5) : trace.end;
+    created.cost = kLastResortCost;
+    proposals.push_back(created);
+  }
   std::stable_sort(proposals.begin(), proposals.end(),
                    [](const SideProposal& p, const SideProposal& q) { return p.cost < q.cost; });
   return proposals;

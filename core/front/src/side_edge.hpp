@@ -21,6 +21,7 @@ struct SideRequest {
   int quads = 2;                 ///< Number of quads that the sector should get, >= 2.
   bool left = true;              ///< Side edge of the base that starts the sector; false: of the one that ends it.
   std::optional<Vec3> closure;   ///< Where the quad would be a parallelogram (D2), if that is known.
+  bool lastResort = false;       ///< Offer a new point also where front nodes are so near that they should be used.
 };
 
 /// Possible ends of a side edge, best first (sections 4.2 (2) and (3) of the paper): the point found by following cross

@@ -1,0 +1,121 @@
+#include "qmcf/cleanup/cleanup.hpp"
+
+#include <gtest/gtest.h>
+
+#include "field/patches.hpp"
+#include "qmcf/base/random.hpp"
+
+namespace qmcf {
+namespace {
+
+TriangleBvh treeOf(const Patch& patch) {
+  std::vector<Vec3> positions;
+  std::vector<std::array<std::int32_t, 3>> triangles;
+  for (const VertexId v : patch.surface.vertices()) positions.push_back(patch.surface.position(v));
+  for (const TriangleId t : patch.surface.triangles()) {
+    const auto c = patch.surface.corners(t);
+    triangles.push_back({c[0].value, c[1].value, c[2].value});
+  }
+  return TriangleBvh(positions, triangles);
+}
+
+/// The cells x cells grid of quads of a square patch.
+FaceMesh gridMesh(const Patch& patch, int cells) {
+  FaceMesh mesh;
+  const Surface& surface = patch.surface;
+  std::vector<std::int32_t> index;
+  const auto vertexAt = [&](int i, int j) {
+    const Vec3 wanted{static_cast<double>(i) / cells, static_cast<double>(j) / cells, 0.0};
+    for (const VertexId v : surface.vertices()) {
+      if (distance(surface.position(v), wanted) < 1e-9) return v.value;
+    }
+    return kNone;
+  };
+  for (const VertexId v : surface.vertices()) {
+    const HalfedgeId h = surface.outgoing(v);
+    SurfacePoint location{Surface::triangle(h), {0, 0, 0}};
+    location.barycentric[static_cast<std::size_t>(h.value % 3)] = 1.0;
+    mesh.positions.push_back(surface.position(v));
+    mesh.normals.push_back({0, 0, 1});
+    mesh.locations.push_back(location);
+    mesh.patchVertex.push_back(surface.isBoundary(v) ? v.value : kNone);
+  }
+  for (int j = 0; j < cells; ++j) {
+    for (int i = 0; i < cells; ++i) {
+      mesh.elements.push_back({vertexAt(i, j), vertexAt(i + 1, j), vertexAt(i + 1, j + 1), vertexAt(i, j + 1)});
+    }
+  }
+  return mesh;
+}
+
+CleanupResult clean(const FaceMesh& mesh, const Patch& patch, const CleanupOptions& options = {}) {
+  SilentProgress silent;
+  auto result = cleanUp(mesh, patch, treeOf(patch), options, silent);
+  EXPECT_TRUE(result.ok());
+  return std::move(result).value();
+}
+
+TEST(CleanUp, LeavesAPerfectGridAlone) {
+  const Patch patch = testing::makeSquare(6);
+  const FaceMesh grid = gridMesh(patch, 6);
+  const CleanupResult result = clean(grid, patch);
+  EXPECT_EQ(result.mesh.elements.size(), 36U);
+  EXPECT_NEAR(result.worstShape, 1.0, 1e-9);
+  for (std::size_t v = 0; v < grid.positions.size(); ++v) EXPECT_LT(distance(result.mesh.positions[v], grid.positions[v]), 1e-9);
+}
+
+TEST(CleanUp, RelaxesNoiseBackToTheGrid) {
+  const Patch patch = testing::makeSquare(8);
+  FaceMesh noisy = gridMesh(patch, 8);
+  Random random(3);
+  for (std::size_t v = 0; v < noisy.positions.size(); ++v) {
+    if (noisy.patchVertex[v] != kNone) continue;
+    noisy.positions[v] += {random.uniform(-0.03, 0.03), random.uniform(-0.03, 0.03), 0.0};
+  }
+  const CleanupResult result = clean(noisy, patch);
+  EXPECT_GT(result.worstShape, 0.99);
+}
+
+TEST(CleanUp, UndoesADoubletAndABadRotation) {
+  const Patch patch = testing::makeSquare(6);
+  FaceMesh mesh = gridMesh(patch, 6);
+  // A vertex inside one quad, joined to two opposite corners, makes two quads with a doublet between them.
+  const Element quad = mesh.elements[14];
+  const auto at = [&](std::size_t i) { return mesh.positions[static_cast<std::size_t>(quad[i])]; };
+  const auto middle = static_cast<std::int32_t>(mesh.positions.size());
+  mesh.positions.push_back((at(0) + at(1) + at(2) + at(3)) * 0.25);
+  mesh.normals.push_back({0, 0, 1});
+  mesh.locations.push_back(mesh.locations[static_cast<std::size_t>(quad[0])]);
+  mesh.patchVertex.push_back(kNone);
+  mesh.elements[14] = {quad[0], quad[1], quad[2], middle};
+  mesh.elements.push_back({quad[0], middle, quad[2], quad[3]});
+  const CleanupResult result = clean(mesh, patch);
+  EXPECT_EQ(result.mesh.elements.size(), 36U);
+  EXPECT_EQ(result.mesh.positions.size(), 49U);
+  EXPECT_GT(result.worstShape, 0.99);
+}
+
+TEST(CleanUp, PairsTrianglesOfASplitQuad) {
+  const Patch patch = testing::makeSquare(5);
+  FaceMesh mesh = gridMesh(patch, 5);
+  const Element quad = mesh.elements[12];
+  mesh.elements[12] = {quad[0], quad[1], quad[2], kNone};
+  mesh.elements.push_back({quad[0], quad[2], quad[3], kNone});
+  const CleanupResult result = clean(mesh, patch);
+  EXPECT_EQ(result.statistics.pairs, 1);
+  for (const Element& element : result.mesh.elements) EXPECT_EQ(cornerCount(element), 4U);
+}
+
+TEST(CleanUp, WithoutTopologyKeepsTheConnectivity) {
+  const Patch patch = testing::makeSquare(5);
+  FaceMesh mesh = gridMesh(patch, 5);
+  const Element quad = mesh.elements[12];
+  mesh.elements[12] = {quad[0], quad[1], quad[2], kNone};
+  mesh.elements.push_back({quad[0], quad[2], quad[3], kNone});
+  CleanupOptions options;
+  options.topology = false;
+  EXPECT_EQ(clean(mesh, patch, options).mesh.elements, mesh.elements);
+}
+
+}  // namespace
+}  // namespace qmcf

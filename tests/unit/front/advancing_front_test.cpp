@@ -1,0 +1,156 @@
+#include "qmcf/front/advancing_front.hpp"
+
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "field/patches.hpp"
+#include "qmcf/mesh/edit_mesh.hpp"
+#include "qmcf/mesh/element_shape.hpp"
+
+namespace qmcf {
+namespace {
+
+CrossField fieldOf(const Patch& patch) {
+  SilentProgress silent;
+  const std::vector<std::uint8_t> kinds(patch.surface.halfedgeCount(), 1);
+  auto field = computeCrossField(patch, kinds, FieldOptions{}, silent);
+  EXPECT_TRUE(field.ok());
+  return std::move(field).value();
+}
+
+FrontResult mesh(const Patch& patch) {
+  SilentProgress silent;
+  auto result = advanceFront(patch, fieldOf(patch), FrontOptions{}, silent);
+  EXPECT_TRUE(result.ok());
+  return std::move(result).value();
+}
+
+/// Conforming, consistently oriented, same Euler characteristic and boundary as the patch, no element turned over, and
+/// the ledger of irregular vertices and triangles closes (A6 of docs/algorithm.md).
+void expectValid(const FaceMesh& mesh, const Patch& patch) {
+  std::map<std::pair<std::int32_t, std::int32_t>, int> directed;
+  std::vector<int> elementsAt(mesh.positions.size(), 0);
+  std::int64_t triangles = 0;
+  for (const Element& element : mesh.elements) {
+    const std::size_t corners = cornerCount(element);
+    triangles += corners == 3 ? 1 : 0;
+    for (std::size_t c = 0; c < corners; ++c) {
+      ++directed[{element[c], element[(c + 1) % corners]}];
+      ++elementsAt[static_cast<std::size_t>(element[c])];
+    }
+  }
+  std::int64_t borders = 0;
+  for (const auto& [edge, uses] : directed) {
+    ASSERT_EQ(uses, 1) << "two elements run along an edge in the same direction";
+    if (directed.count({edge.second, edge.first}) != 0) continue;
+    ++borders;
+    const std::int32_t a = mesh.patchVertex[static_cast<std::size_t>(edge.first)];
+    const std::int32_t b = mesh.patchVertex[static_cast<std::size_t>(edge.second)];
+    ASSERT_NE(a, kNone);
+    ASSERT_NE(b, kNone);
+    const HalfedgeId h = patch.surface.outgoing(VertexId(a));
+    EXPECT_TRUE(patch.surface.isBoundary(h));
+    EXPECT_EQ(patch.surface.target(h), VertexId(b));
+  }
+  std::int64_t patchBorders = 0;
+  for (const HalfedgeId h : patch.surface.halfedges()) patchBorders += patch.surface.isBoundary(h) ? 1 : 0;
+  EXPECT_EQ(borders, patchBorders);
+  const auto edges = (static_cast<std::int64_t>(directed.size()) + borders) / 2;
+  const auto chi = static_cast<std::int64_t>(mesh.positions.size()) - edges + static_cast<std::int64_t>(mesh.elements.size());
+  EXPECT_EQ(chi, patch.surface.eulerCharacteristic());
+  std::int64_t ledger = triangles;
+  for (std::size_t v = 0; v < mesh.positions.size(); ++v) ledger += (mesh.patchVertex[v] == kNone ? 4 : 2) - elementsAt[v];
+  EXPECT_EQ(ledger, 4 * chi);
+  const EditMesh edit(mesh);
+  for (std::size_t f = 0; f < edit.faceCapacity(); ++f) {
+    EXPECT_GT(faceShape(edit, FaceId(f)), 0.0) << f << " with " << edit.cornerCount(FaceId(f)) << " corners";
+  }
+}
+
+TEST(AdvancingFront, MakesTheGridOfASquare) {
+  // A square whose sides have ten divisions has a perfect mesh, and rows from its sides must find it.
+  Patch patch = testing::makeSquare(10);
+  const FrontResult result = mesh(patch);
+  expectValid(result.mesh, patch);
+  EXPECT_EQ(result.statistics.triangles, 0);
+  EXPECT_EQ(result.statistics.quads, 100);
+  const EditMesh edit(result.mesh);
+  for (std::size_t f = 0; f < edit.faceCapacity(); ++f) EXPECT_GT(faceShape(edit, FaceId(f)), 0.9);
+}
+
+TEST(AdvancingFront, FollowsTheSizeAndNotTheBackground) {
+  // The same square with a background four times as fine inside: the front must make elements of the size asked for.
+  Patch fine = testing::makeSquare(16);
+  for (const VertexId v : fine.surface.vertices()) fine.size[v] = 0.0625;
+  const FrontResult result = mesh(fine);
+  expectValid(result.mesh, fine);
+  EXPECT_NEAR(static_cast<double>(result.statistics.quads), 256.0, 26.0);
+}
+
+TEST(AdvancingFront, MeshesADiskWithFewTriangles) {
+  const Patch patch = testing::makeDisk(12);
+  const FrontResult result = mesh(patch);
+  expectValid(result.mesh, patch);
+  EXPECT_LE(result.statistics.triangles, result.statistics.quads / 25);
+}
+
+TEST(AdvancingFront, MeshesRingsTubesAndClosedSurfaces) {
+  const std::array<std::pair<const char*, Patch>, 5> parts{{{"pentagonal ring", testing::makePolygonRing(5, 8, 6, false)},
+                                                            {"hexagon, round hole", testing::makePolygonRing(6, 6, 6, true)},
+                                                            {"tube", testing::makeCylinder(24, 12, 3.0)},
+                                                            {"sphere", testing::makeSphere(8)},
+                                                            {"torus", testing::makeTorus(60, 24)}}};
+  for (const auto& [name, patch] : parts) {
+    SCOPED_TRACE(name);
+    const FrontResult result = mesh(patch);
+    expectValid(result.mesh, patch);
+    EXPECT_GE(10 * result.statistics.quads, 9 * (result.statistics.quads + result.statistics.triangles));
+  }
+}
+
+TEST(AdvancingFront, PlacesPatternsAtSingularities) {
+  const Patch patch = testing::makeDisk(16);
+  SilentProgress silent;
+  const CrossField field = fieldOf(patch);
+  ASSERT_EQ(field.singularities.size(), 4U);
+  auto with = advanceFront(patch, field, FrontOptions{}, silent);
+  FrontOptions plain;
+  plain.patterns = false;
+  auto without = advanceFront(patch, field, plain, silent);
+  EXPECT_GT(with.value().statistics.stars, 0);
+  EXPECT_EQ(without.value().statistics.stars, 0);
+  expectValid(with.value().mesh, patch);
+  expectValid(without.value().mesh, patch);
+}
+
+TEST(AdvancingFront, SurvivesPatchesTooSmallToMesh) {
+  for (int cells = 1; cells <= 3; ++cells) {
+    const Patch patch = testing::makeSquare(cells);
+    expectValid(mesh(patch).mesh, patch);
+    expectValid(recombinePatch(patch).mesh, patch);
+  }
+}
+
+TEST(AdvancingFront, GivesTheSameMeshEachTime) {
+  const Patch patch = testing::makeDisk(9);
+  const FrontResult first = mesh(patch);
+  const FrontResult second = mesh(patch);
+  EXPECT_EQ(first.mesh.elements, second.mesh.elements);
+  EXPECT_TRUE(first.mesh.positions == second.mesh.positions);
+}
+
+TEST(AdvancingFront, StopsWhenAsked) {
+  class Stop final : public Progress {
+   public:
+    [[nodiscard]] bool report(Stage, double) override { return false; }
+  };
+  const Patch patch = testing::makeSquare(10);
+  Stop stop;
+  const auto result = advanceFront(patch, fieldOf(patch), FrontOptions{}, stop);
+  ASSERT_FALSE(result.ok());
+  EXPECT_EQ(result.error().code, ErrorCode::cancelled);
+}
+
+}  // namespace
+}  // namespace qmcf

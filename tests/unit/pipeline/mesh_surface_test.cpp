@@ -1,0 +1,124 @@
+#include "qmcf/pipeline/mesh_surface.hpp"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+
+#include "topology/shapes.hpp"
+
+namespace qmcf {
+namespace {
+
+MeshResult mesh(const TriangleMesh& part, std::int64_t quads) {
+  SilentProgress silent;
+  MeshOptions options;
+  options.quads = quads;
+  auto result = meshSurface(part, options, silent);
+  EXPECT_TRUE(result.ok()) << (result.ok() ? "" : result.error().message);
+  return std::move(result).value();
+}
+
+void expectGood(const MeshResult& result) {
+  EXPECT_TRUE(result.quality.valid);
+  for (const ValidityCheck& check : result.quality.checks) {
+    EXPECT_NE(check.status, CheckStatus::fail) << check.name << ": " << check.sentence;
+  }
+  EXPECT_GE(result.quality.quadShare, 0.95);
+  EXPECT_GE(result.quality.sharpRecall.value_or(1.0), 0.99);
+  EXPECT_GE(result.quality.cornerRecall.value_or(1.0), 0.99);
+  EXPECT_GE(result.quality.boundaryRecall.value_or(1.0), 0.99);
+}
+
+TEST(MeshSurface, MeshesACubeAsSixGrids) {
+  const MeshResult result = mesh(shapes::cubeSoup(1), 600);
+  expectGood(result);
+  EXPECT_EQ(result.quality.quads, 600);
+  EXPECT_EQ(result.quality.triangles, 0);
+  EXPECT_EQ(result.quality.eulerCharacteristic, 2);
+  EXPECT_NEAR(result.quality.scaledJacobian.worst, 1.0, 1e-6);
+}
+
+TEST(MeshSurface, DoesNotDependOnTheTessellation) {
+  // Two rings of needles and a fine grid are the same cylinder.
+  const MeshResult needles = mesh(shapes::cylinder(48, 1, 4.0), 1500);
+  const MeshResult fine = mesh(shapes::cylinder(48, 40, 4.0), 1500);
+  expectGood(needles);
+  expectGood(fine);
+  EXPECT_NEAR(needles.quality.scaledJacobian.mean, fine.quality.scaledJacobian.mean, 0.02);
+}
+
+TEST(MeshSurface, MeshesClosedSmoothAndNonManifoldParts) {
+  expectGood(mesh(shapes::torus(60, 24, 3.0, 1.0), 1500));
+  const TriangleMesh tee = shapes::join(
+      shapes::moved(shapes::square(4), [](const Vec3& p) { return Vec3{p.x - 0.5, p.y, 0.0}; }),
+      shapes::moved(shapes::square(4), [](const Vec3& p) { return Vec3{0.0, p.x, p.y}; }));
+  const MeshResult result = mesh(tee, 400);
+  expectGood(result);
+  ASSERT_TRUE(result.quality.nonManifoldRecall.has_value());
+  EXPECT_GE(*result.quality.nonManifoldRecall, 0.99);
+}
+
+TEST(MeshSurface, KeepsEveryCornerOfAPrism) {
+  const std::vector<Vec2> l{{0, 0}, {3, 0}, {3, 1}, {1, 1}, {1, 3}, {0, 3}};
+  expectGood(mesh(shapes::prism(l, {0.5, 0.5}), 1000));
+}
+
+TEST(MeshSurface, GivesTheSameBytesEachTime) {
+  const MeshResult first = mesh(shapes::cylinder(32, 2, 2.0), 800);
+  const MeshResult second = mesh(shapes::cylinder(32, 2, 2.0), 800);
+  EXPECT_EQ(first.mesh.elements, second.mesh.elements);
+  EXPECT_TRUE(first.mesh.positions == second.mesh.positions);
+}
+
+TEST(MeshSurface, MeshesASingleTriangle) {
+  TriangleMesh triangle;
+  triangle.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  triangle.triangles = {{0, 1, 2}};
+  for (const std::int64_t quads : {1, 10, 300}) EXPECT_TRUE(mesh(triangle, quads).quality.valid) << quads;
+}
+
+TEST(MeshSurface, RefusesOptionsOutOfRange) {
+  SilentProgress silent;
+  const std::vector<std::function<void(MeshOptions&)>> mistakes{
+      [](MeshOptions& o) { o.size = -1.0; },         [](MeshOptions& o) { o.size = 0.0; },
+      [](MeshOptions& o) { o.quads = 0; },           [](MeshOptions& o) { o.quads = 20'000'000; },
+      [](MeshOptions& o) { o.featureAngle = 0.0; },  [](MeshOptions& o) { o.featureAngle = 180.0; },
+      [](MeshOptions& o) { o.gradation = 0.0; },     [](MeshOptions& o) { o.size = 1.0, o.quads = 10; },
+  };
+  for (std::size_t i = 0; i < mistakes.size(); ++i) {
+    MeshOptions options;
+    mistakes[i](options);
+    const auto result = meshSurface(shapes::square(2), options, silent);
+    ASSERT_FALSE(result.ok()) << i;
+    EXPECT_EQ(result.error().code, ErrorCode::invalidOption);
+    EXPECT_FALSE(result.error().message.empty());
+  }
+}
+
+TEST(MeshSurface, CanBeCancelledInEveryStage) {
+  class StopAt final : public Progress {
+   public:
+    explicit StopAt(Stage stage) : stage_(stage) {}
+    [[nodiscard]] bool report(Stage stage, double) override {
+      reached = reached || stage == stage_;
+      return stage != stage_;
+    }
+    bool reached = false;
+
+   private:
+    Stage stage_;
+  };
+  for (const Stage stage : {Stage::repair, Stage::topology, Stage::sizing, Stage::background, Stage::field, Stage::front,
+                            Stage::cleanup, Stage::quality}) {
+    StopAt stop(stage);
+    MeshOptions options;
+    options.quads = 300;
+    const auto result = meshSurface(shapes::cylinder(24, 4, 2.0), options, stop);
+    EXPECT_TRUE(stop.reached) << stageName(stage);
+    ASSERT_FALSE(result.ok()) << stageName(stage);
+    EXPECT_EQ(result.error().code, ErrorCode::cancelled);
+  }
+}
+
+}  // namespace
+}  // namespace qmcf
