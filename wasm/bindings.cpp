@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <new>
 #include <optional>
 #include <span>
 #include <string>
@@ -27,6 +28,9 @@
 
 // A direct import, since it is called from inner loops: the worker's onReport(stage, fraction) says whether to go on.
 EM_JS(int, qmcfReport, (int stage, double fraction), { return Module.onReport(stage, fraction) ? 1 : 0; });
+
+// Ends the instance with a message that the worker tells from other traps.
+EM_JS(void, qmcfOutOfMemory, (), { abort("OOM"); });
 
 namespace qmcf {
 namespace {
@@ -401,6 +405,7 @@ val tables() {
 }
 
 EMSCRIPTEN_BINDINGS(qmcf) {
+  std::set_new_handler(&qmcfOutOfMemory);
   emscripten::function("inspect", &inspectModel);
   emscripten::function("field", &fieldModel);
   emscripten::function("mesh", &meshModel);

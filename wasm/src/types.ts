@@ -98,9 +98,68 @@ export interface InspectResult {
   readonly report: InspectReport;
 }
 
+/** How much of everything there is. */
+export interface PartCounts {
+  readonly points: number;
+  readonly triangles: number;
+  readonly bodies: number;
+  readonly faces: number;
+  readonly loops: number;
+  /** In all and by kind. */
+  readonly edges: Readonly<Record<'total' | EdgeKind, number>>;
+  readonly vertices: number;
+}
+
+/** A connected component. */
+export interface BodyReport {
+  readonly closed: boolean;
+  readonly faces: readonly number[];
+}
+
+/** One use of an edge by a loop; the face is on its left. */
+export interface CoedgeReport {
+  readonly edge: number;
+  /** The loop runs from the edge's end to its start. */
+  readonly reversed: boolean;
+  /** Quads wanted at its first vertex, 1 to 4. */
+  readonly cornerQuads: number;
+}
+
+/** A connected piece of the surface between edges. */
+export interface PartFaceReport {
+  readonly name: string;
+  readonly body: number;
+  /** Number of triangles. */
+  readonly triangles: number;
+  readonly area: number;
+  readonly loops: readonly (readonly CoedgeReport[])[];
+}
+
+/** A chain of edges of the triangulation between two vertices of the part. */
+export interface EdgeReport {
+  readonly kind: EdgeKind;
+  readonly start: number;
+  readonly end: number;
+  /** Number of points. */
+  readonly points: number;
+  readonly length: number;
+}
+
+/** A point where edges end. */
+export interface VertexReport {
+  readonly point: number;
+  /** Put on a closed smooth edge only so that it has an end. */
+  readonly artificial: boolean;
+}
+
 /** What was found in and done to the input. */
 export interface InspectReport {
   readonly repair: readonly RepairItem[];
+  readonly counts: PartCounts;
+  readonly bodies: readonly BodyReport[];
+  readonly faces: readonly PartFaceReport[];
+  readonly edges: readonly EdgeReport[];
+  readonly vertices: readonly VertexReport[];
 }
 
 /** One cross per point of the faces' background triangulations: four directions at right angles. */

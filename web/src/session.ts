@@ -1,7 +1,7 @@
-import { createMesher, QmcfError, type InspectResult, type Mesher, type OutputFormat, type ProgressReport } from 'qmcf';
+import { createMesher, QmcfError, type Mesher, type OutputFormat, type ProgressReport } from 'qmcf';
 import * as format from './format.js';
 import type { Sample } from './samples.js';
-import { overallFraction, stageLabel } from './stages.js';
+import { stageLabel, TaskProgress } from './stages.js';
 import { linkSizes, optionsKey, optionsOf, type Running, type Settings, type State, type Store, type View } from './state.js';
 
 /** Everything that is done with the core: opens parts, computes fields and meshes, one at a time. */
@@ -82,7 +82,7 @@ export class Session {
       const bytes = new Uint8Array(await load());
       const { settings } = this.store.state;
       const part = await mesher.inspect(bytes, { featureAngle: settings.featureAngle }, control);
-      const area = surfaceArea(part);
+      const area = part.report.faces.reduce((sum, face) => sum + face.area, 0);
       const sized = linkSizes({ ...settings, sizedBy: 'quads', quads: 3000 }, area);
       this.store.update({
         model: { name, bytes, part, area, featureAngle: settings.featureAngle },
@@ -155,6 +155,7 @@ export class Session {
     const abort = new AbortController();
     this.abort = abort;
     const since = performance.now();
+    const overall = new TaskProgress(task);
     const show = (stage: string, fraction: number) =>
       this.store.update({ running: { task, stage, fraction, since }, status: `${stage}…` });
     show(task === 'open' ? 'Opening' : 'Starting', 0);
@@ -164,7 +165,7 @@ export class Session {
         signal: abort.signal,
         onProgress: (progress) => {
           if (this.abort === abort && !abort.signal.aborted) {
-            show(stageLabel(progress.stage), overallFraction(task, progress));
+            show(stageLabel(progress.stage), overall.follow(progress));
           }
         },
       });
@@ -217,18 +218,6 @@ function withoutField(state: State): Partial<State> {
     display: { ...state.display, crosses: false },
     view: state.view === 'field' ? 'part' : state.view,
   };
-}
-
-function surfaceArea({ positions, triangles }: InspectResult): number {
-  let area = 0;
-  for (let t = 0; t < triangles.length; t += 3) {
-    const span = (corner: number) =>
-      [0, 1, 2].map((axis) => positions[3 * triangles[t + corner]! + axis]! - positions[3 * triangles[t]! + axis]!);
-    const [ax = 0, ay = 0, az = 0] = span(1);
-    const [bx = 0, by = 0, bz = 0] = span(2);
-    area += 0.5 * Math.hypot(ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx);
-  }
-  return area;
 }
 
 function save(content: Blob, name: string): void {

@@ -62,9 +62,9 @@ const edgeNames: readonly (readonly [EdgeKind, string])[] = [
   ['nonManifold', 'Non-manifold edges'],
 ];
 
-function edgeEntries({ edgeKinds }: InspectResult): HTMLElement[] {
+function edgeEntries({ report }: InspectResult): HTMLElement[] {
   return edgeNames.flatMap(([kind, name]) => {
-    const amount = edgeKinds.filter((k) => k === kind).length;
+    const amount = report.counts.edges[kind];
     return amount > 0 ? [entry(swatch(`line ${kind}`), name, amount)] : [];
   });
 }
@@ -73,8 +73,8 @@ function fieldEntries({ singularities, crosses }: FieldResult): HTMLElement[] {
   const positive = singularities.indices.filter((index) => index > 0).length;
   const pinned = crosses.constrained.filter((kind) => kind > 0).length;
   return [
-    entry(indexSign(1), 'Singularity +1, three quads', positive),
-    entry(indexSign(-1), 'Singularity −1, five quads', singularities.indices.length - positive),
+    entry(indexSign(1), 'Singularity +1 (3 quads)', positive),
+    entry(indexSign(-1), 'Singularity −1 (5 quads)', singularities.indices.length - positive),
     entry(swatch('line pinned'), 'Pinned crosses', pinned),
     entry(swatch('line cross'), 'Free crosses', crosses.constrained.length - pinned),
   ];

@@ -51,11 +51,11 @@ function factsOf({ model }: State): string {
   if (!model) {
     return 'OBJ, STL or PLY. It stays on your machine.';
   }
-  const { part } = model;
+  const { triangles, faces, edges } = model.part.report.counts;
   return [
-    format.counted(part.triangles.length / 3, 'triangle'),
-    format.counted(part.faceNames.length, 'face'),
-    format.counted(part.edgeKinds.length, 'edge'),
+    format.counted(triangles, 'triangle'),
+    format.counted(faces, 'face'),
+    format.counted(edges.total, 'edge'),
   ].join(' · ');
 }
 

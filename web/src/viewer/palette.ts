@@ -29,9 +29,9 @@ const shared = {
 
 export const lightPalette: Palette = {
   ...shared,
-  faceLightness: 0.84,
-  faceSaturation: 0.34,
-  plain: new Color('#dfe2dc'),
+  faceLightness: 0.83,
+  faceSaturation: 0.42,
+  plain: new Color('#e3e7e2'),
   sharp: new Color('#17211d'),
   boundary: new Color('#0a7f66'),
   nonManifold: new Color('#a3238f'),
@@ -39,7 +39,7 @@ export const lightPalette: Palette = {
   cross: new Color('#3d4d47'),
   pinnedCross: new Color('#07806a'),
   skyLight: new Color('#ffffff'),
-  groundLight: new Color('#aab2ab'),
+  groundLight: new Color('#9fa9a6'),
 };
 
 export const darkPalette: Palette = {

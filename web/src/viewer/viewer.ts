@@ -124,7 +124,7 @@ export class Viewer {
     const up = new Vector3().crossVectors(right, viewDirection);
     const extent = (axis: Vector3) =>
       Math.abs(axis.x) * box.max.x + Math.abs(axis.y) * box.max.y + Math.abs(axis.z) * box.max.z;
-    const room = Math.min(this.free.width / extent(right), this.free.height / extent(up)) * 0.42;
+    const room = Math.min(this.free.width / extent(right), this.free.height / extent(up)) * 0.46;
     const depth = extent(viewDirection);
     const distance = height / (2 * Math.tan(MathUtils.degToRad(fieldOfView / 2)) * room) + 0.5 * depth;
     this.camera.position.copy(viewDirection).multiplyScalar(distance);
@@ -172,7 +172,7 @@ export class Viewer {
     this.palette = dark ? darkPalette : lightPalette;
     this.sky.color = this.palette.skyLight;
     this.sky.groundColor = this.palette.groundLight;
-    this.sky.intensity = 1.5;
+    this.sky.intensity = 1.9;
     const { part, field, mesh } = this.shown;
     if (part) {
       this.setPart(part, false);
@@ -184,9 +184,9 @@ export class Viewer {
 
   /** The light comes over the viewer's left shoulder, wherever the camera is. */
   private addCameraLights(): void {
-    const key = new DirectionalLight('#ffffff', 1.7);
+    const key = new DirectionalLight('#fffaf2', 1.9);
     key.position.set(-1.2, 1.6, 2.2);
-    const rim = new DirectionalLight('#ffffff', 0.5);
+    const rim = new DirectionalLight('#e8f1ff', 0.7);
     rim.position.set(2, -0.5, 1);
     for (const light of [key, rim]) {
       this.camera.add(light, light.target);
