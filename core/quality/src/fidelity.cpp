@@ -10,7 +10,7 @@ namespace {
 constexpr double kCornerInset =
     0.25;  ///< Of the way from a corner to the element's centre: where its patch is looked for.
 constexpr double kPatchReach = 0.1;  ///< Of the square root of the element's area, beyond the distance to the patch.
-constexpr std::size_t kGapSamples = 4000;  ///< Vertices and triangles of the reference that are looked at, at most.
+constexpr std::size_t kGapSamples = 2000;  ///< Vertices and triangles of the reference that are looked at, at most.
 
 /// The mesh as triangles: quadrilaterals become the fan around their centre.
 TriangleBvh treeOf(const MeasuredMesh& measured) {

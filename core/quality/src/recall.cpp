@@ -9,6 +9,7 @@ namespace {
 
 constexpr double kReach = 0.1;          ///< Of the size.
 constexpr double kPiece = 0.25;         ///< Of the size: longest piece of a feature edge.
+constexpr double kCell = 2.0;           ///< Of the size: cells of the grid over the mesh's edges.
 constexpr double kLargestAngle = 25.0;  ///< Degrees: an arc in eight divisions turns its chords by up to 22.5.
 /// Bounds the work where the size is tiny against the features.
 constexpr double kMostPieces = 1e6;
@@ -20,7 +21,7 @@ SegmentGrid gridOfEdges(const MeasuredMesh& measured, double size) {
     segments.push_back({measured.mesh.positions[static_cast<std::size_t>(edge.low)],
                         measured.mesh.positions[static_cast<std::size_t>(edge.high)]});
   }
-  return {std::move(segments), size, kReach * size};
+  return {std::move(segments), kCell * size, kReach * size};
 }
 
 std::optional<double> recallOf(const std::vector<Segment>& features, const SegmentGrid& grid, double size) {
@@ -49,16 +50,19 @@ std::optional<double> recallOf(const std::vector<Segment>& features, const Segme
 
 std::optional<double> recallOfCorners(const MeasuredMesh& measured, const std::vector<Vec3>& corners, double size) {
   if (corners.empty()) return std::nullopt;
+  // There are few corners: the vertices look for them rather than the other way round.
   std::vector<Segment> points;
+  for (const Vec3& corner : corners) points.push_back({corner, corner});
+  const SegmentGrid grid(std::move(points), size, kReach * size);
+  std::vector<std::uint8_t> kept(corners.size(), 0);
   for (std::size_t v = 0; v < measured.mesh.positions.size(); ++v) {
     if (measured.structure.elementsAround[v] == 0) continue;
-    points.push_back({measured.mesh.positions[v], measured.mesh.positions[v]});
+    grid.anyWithin(measured.mesh.positions[v], kReach * size, [&](std::uint32_t corner, const Segment&) {
+      kept[corner] = 1;
+      return false;
+    });
   }
-  const SegmentGrid grid(std::move(points), size, kReach * size);
-  const auto kept = std::count_if(corners.begin(), corners.end(), [&](const Vec3& corner) {
-    return grid.anyWithin(corner, kReach * size, [](std::uint32_t, const Segment&) { return true; });
-  });
-  return static_cast<double>(kept) / static_cast<double>(corners.size());
+  return static_cast<double>(std::count(kept.begin(), kept.end(), 1)) / static_cast<double>(corners.size());
 }
 
 }  // namespace

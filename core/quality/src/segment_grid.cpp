@@ -44,7 +44,7 @@ SegmentGrid::SegmentGrid(std::vector<Segment> segments, double cell, double larg
   entries_.reserve(segments_.size() * 2);
   for (std::size_t i = 0; i < segments_.size(); ++i) {
     const auto& [a, b] = segments_[i];
-    const auto pieces = static_cast<int>(std::ceil(distance(a, b) / cell_)) + 1;
+    const auto pieces = std::max(1, static_cast<int>(std::ceil(distance(a, b) / cell_)));
     for (int k = 0; k < pieces; ++k) {
       insertPiece(a + (b - a) * (k / static_cast<double>(pieces)),
                   a + (b - a) * ((k + 1) / static_cast<double>(pieces)), static_cast<std::uint32_t>(i));
