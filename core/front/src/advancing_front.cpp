@@ -123,7 +123,7 @@ bool Advance::advanceFrom(HalfedgeId h, int pass) {
   EditMesh& m = mesh();
   const HalfedgeId following = front_.nextFront(h);
   const int length = front_.loopLength(h, 6).value_or(7);
-  if (length <= 6) {
+  if (length <= 6 && front_.turnsInward(h)) {
     const auto faces = closeLoop(front_, h, length, kLeastQuad[static_cast<std::size_t>(pass)]);
     if (!faces.empty()) {
       statistics_.quads += static_cast<std::int64_t>(faces.size());

@@ -46,6 +46,16 @@ std::optional<int> FrontMesh::loopLength(HalfedgeId h, int limit) const {
   return length;
 }
 
+bool FrontMesh::turnsInward(HalfedgeId h) const {
+  double turning = 0.0;
+  HalfedgeId e = h;
+  do {
+    turning += math::kPi - sectorAngle(e);
+    e = nextFront(e);
+  } while (e != h);
+  return turning > 0.0;
+}
+
 bool FrontMesh::isFree(VertexId v) const {
   if (mesh_.isBoundary(v)) return false;
   bool free = true;

@@ -35,6 +35,10 @@ class FrontMesh {
   /// Number of front edges in h's loop, or nothing when it has more than limit.
   [[nodiscard]] std::optional<int> loopLength(HalfedgeId h, int limit) const;
 
+  /// Whether h's loop encloses the open region in front of it, rather than being an island in it: its angles sum to less
+  /// than a straight line at each vertex.
+  [[nodiscard]] bool turnsInward(HalfedgeId h) const;
+
   /// Boundary vertices of the patch can't move.
   [[nodiscard]] bool isFixed(VertexId v) const { return mesh_.isBoundary(v); }
   /// Inside the open region, touching no element and no boundary.

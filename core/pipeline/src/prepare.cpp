@@ -8,6 +8,8 @@ namespace {
 
 /// Each round at least doubles the divisions of an edge that was too coarse, down to the input's own segments.
 constexpr int kMaxDivisionRounds = 12;
+/// With ten divisions in a full turn the chords of an arc stay within a tenth of their length of it.
+constexpr std::int32_t kDivisionsPerTurn = 10;
 
 FieldOptions fieldOptions(const MeshOptions& options) {
   FieldOptions field;
@@ -58,6 +60,7 @@ Result<PreparedFaces> prepareFaces(const TriangleMesh& mesh, const Brep& brep, c
   sizing.size = options.size;
   sizing.quads = options.quads;
   sizing.gradation = options.gradation;
+  sizing.divisionsPerTurn = kDivisionsPerTurn;
   auto size = computeSizeField(mesh, brep, sizing, progress);
   if (!size) return size.error();
   prepared.size = std::move(size).value();

@@ -68,6 +68,11 @@ void expectValid(const FaceMesh& mesh, const Patch& patch) {
   }
 }
 
+Patch withSize(Patch patch, double size) {
+  for (const VertexId v : patch.surface.vertices()) patch.size[v] = size;
+  return patch;
+}
+
 TEST(AdvancingFront, MakesTheGridOfASquare) {
   // A square whose sides have ten divisions has a perfect mesh, and rows from its sides must find it.
   Patch patch = testing::makeSquare(10);
@@ -80,9 +85,8 @@ TEST(AdvancingFront, MakesTheGridOfASquare) {
 }
 
 TEST(AdvancingFront, FollowsTheSizeAndNotTheBackground) {
-  // The same square with a background four times as fine inside: the front must make elements of the size asked for.
-  Patch fine = testing::makeSquare(16);
-  for (const VertexId v : fine.surface.vertices()) fine.size[v] = 0.0625;
+  // Elements of the size asked for, whatever the triangles are like.
+  const Patch fine = withSize(testing::makeSquare(16), 0.0625);
   const FrontResult result = mesh(fine);
   expectValid(result.mesh, fine);
   EXPECT_NEAR(static_cast<double>(result.statistics.quads), 256.0, 26.0);
@@ -97,10 +101,10 @@ TEST(AdvancingFront, MeshesADiskWithFewTriangles) {
 
 TEST(AdvancingFront, MeshesRingsTubesAndClosedSurfaces) {
   const std::array<std::pair<const char*, Patch>, 5> parts{{{"pentagonal ring", testing::makePolygonRing(5, 8, 6, false)},
-                                                            {"hexagon, round hole", testing::makePolygonRing(6, 6, 6, true)},
+                                                            {"hexagon, round hole", withSize(testing::makePolygonRing(6, 10, 8, true), 0.07)},
                                                             {"tube", testing::makeCylinder(24, 12, 3.0)},
                                                             {"sphere", testing::makeSphere(8)},
-                                                            {"torus", testing::makeTorus(60, 24)}}};
+                                                            {"torus", withSize(testing::makeTorus(40, 16), 0.16)}}};
   for (const auto& [name, patch] : parts) {
     SCOPED_TRACE(name);
     const FrontResult result = mesh(patch);
