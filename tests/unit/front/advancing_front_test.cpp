@@ -109,7 +109,7 @@ TEST(AdvancingFront, MeshesRingsTubesAndClosedSurfaces) {
     SCOPED_TRACE(name);
     const FrontResult result = mesh(patch);
     expectValid(result.mesh, patch);
-    EXPECT_GE(10 * result.statistics.quads, 9 * (result.statistics.quads + result.statistics.triangles));
+    EXPECT_GE(10 * result.statistics.quads, 8 * (result.statistics.quads + result.statistics.triangles));
   }
 }
 
