@@ -40,6 +40,15 @@ std::string join(const std::vector<std::string>& parts) {
   return result;
 }
 
+/// The first few ids.
+std::string idList(const std::vector<std::int64_t>& ids) {
+  constexpr std::size_t kMostIds = 12;
+  std::vector<std::string> parts;
+  for (std::size_t i = 0; i < std::min(ids.size(), kMostIds); ++i) parts.push_back(std::to_string(ids[i]));
+  if (ids.size() > kMostIds) parts.emplace_back("...");
+  return join(parts);
+}
+
 std::string edgeCounts(const Brep& brep) {
   std::vector<std::string> parts;
   constexpr std::array<std::pair<EdgeKind, const char*>, 4> kKinds{{{EdgeKind::sharp, "sharp"},
@@ -179,7 +188,9 @@ std::string qualityText(const QualityReport& report) {
   for (const ValidityCheck& check : report.checks) {
     passed += check.status == CheckStatus::pass ? 1 : 0;
     const bool matters = check.status == CheckStatus::warn || check.status == CheckStatus::fail;
-    if (matters) text += line(std::string(checkStatusName(check.status)), words(check.name) + ": " + check.sentence);
+    if (!matters) continue;
+    text += line(std::string(checkStatusName(check.status)), words(check.name) + ": " + check.sentence);
+    if (!check.elements.empty()) text += line("", idList(check.elements));
   }
   return text + line(report.valid ? "Valid" : "INVALID",
                      std::to_string(passed) + " of " + std::to_string(report.checks.size()) + " checks passed");

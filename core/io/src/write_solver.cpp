@@ -2,9 +2,9 @@
 // sections and loads are the user's.
 
 #include <algorithm>
-#include <array>
-#include <cstdio>
+#include <cstdlib>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "mesh_writers.hpp"
@@ -13,30 +13,85 @@
 namespace qmcf {
 namespace {
 
+/// A decimal number: 0.d1 d2 d3... times ten to the power of `point`.
+struct Decimal {
+  bool negative = false;
+  std::string digits;  ///< Without zeros at either end; "0" for zero.
+  int point = 0;
+};
+
+Decimal decimalOf(double value) {
+  Decimal decimal;
+  int exponent = 0;
+  bool behindPoint = false;
+  const std::string text = shortText(value);
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (c == 'e') {
+      exponent = std::atoi(text.c_str() + i + 1);
+      break;
+    }
+    decimal.negative = decimal.negative || c == '-';
+    behindPoint = behindPoint || c == '.';
+    if (c < '0' || c > '9') continue;
+    if (!decimal.digits.empty() || c != '0') decimal.digits += c;
+    const bool leadingZero = decimal.digits.empty();
+    if (!behindPoint && !leadingZero) ++decimal.point;
+    if (behindPoint && leadingZero) --decimal.point;
+  }
+  decimal.point += exponent;
+  decimal.digits.erase(decimal.digits.find_last_not_of('0') + 1);
+  if (decimal.digits.empty()) return {decimal.negative, "0", 1};
+  return decimal;
+}
+
+Decimal rounded(Decimal decimal, std::size_t count) {
+  if (count >= decimal.digits.size()) return decimal;
+  const bool up = decimal.digits[count] >= '5';
+  decimal.digits.resize(count);
+  if (up) {
+    while (!decimal.digits.empty() && decimal.digits.back() == '9') decimal.digits.pop_back();
+    if (decimal.digits.empty()) return {decimal.negative, "1", decimal.point + 1};
+    ++decimal.digits.back();
+  }
+  decimal.digits.erase(decimal.digits.find_last_not_of('0') + 1);
+  return decimal;
+}
+
+/// Without an exponent.
+std::string plainText(const Decimal& decimal) {
+  const auto count = static_cast<int>(decimal.digits.size());
+  std::string text = decimal.digits;
+  if (decimal.point <= 0) {
+    text = "0." + std::string(static_cast<std::size_t>(-decimal.point), '0') + text;
+  } else if (decimal.point >= count) {
+    text += std::string(static_cast<std::size_t>(decimal.point - count), '0') + ".";
+  } else {
+    text.insert(static_cast<std::size_t>(decimal.point), ".");
+  }
+  return (decimal.negative ? "-" : "") + text;
+}
+
+std::string exponentText(const Decimal& decimal, std::string_view letter) {
+  const int exponent = decimal.point - 1;
+  std::string text = (decimal.negative ? "-" : "") + decimal.digits.substr(0, 1) + "." + decimal.digits.substr(1);
+  return text.append(letter).append(exponent < 0 ? "-" : "+") + std::to_string(std::abs(exponent));
+}
+
 /// The number with as many digits as fit into `width` characters, with a decimal point as both formats demand.
 /// INP allows 20 characters; Nastran's large fields 16, where the exponent needs no letter.
-std::string fittedNumber(double value, std::size_t width, bool exponentLetter) {
-  std::array<char, 40> digits{};
-  const auto text = [&](int precision) {
-    if (precision >= 0) std::snprintf(digits.data(), digits.size(), "%.*e", precision, value);
-    std::string result = precision < 0 ? shortText(value) : std::string(digits.data());
-    const std::size_t exponent = result.find('e');
-    const std::size_t point = result.find('.');
-    if (point == std::string::npos) result.insert(std::min(exponent, result.size()), ".");
-    const std::size_t letter = result.find('e');
-    if (letter != std::string::npos) {
-      if (result[letter + 2] == '0') result.erase(letter + 2, 1);
-      if (exponentLetter) {
-        result[letter] = 'E';
-      } else {
-        result.erase(letter, 1);
-      }
-    }
-    return result;
-  };
-  std::string result = text(-1);
-  for (int precision = 16; result.size() > width && precision >= 0; --precision) result = text(precision);
-  return result;
+std::string fittedNumber(double value, std::size_t width, std::string_view exponentLetter) {
+  const Decimal exact = decimalOf(value);
+  for (std::size_t digits = exact.digits.size(); digits > 1; --digits) {
+    const Decimal decimal = rounded(exact, digits);
+    // A plain number this long would only have zeros to show.
+    const bool plainFits = std::abs(decimal.point) < static_cast<int>(width);
+    if (std::string text = plainFits ? plainText(decimal) : ""; plainFits && text.size() <= width) return text;
+    if (std::string text = exponentText(decimal, exponentLetter); text.size() <= width) return text;
+  }
+  const Decimal decimal = rounded(exact, 1);
+  const bool plainFits = std::abs(decimal.point) < static_cast<int>(width) - 3;
+  return plainFits ? plainText(decimal) : exponentText(decimal, exponentLetter);
 }
 
 std::vector<std::int32_t> nodesOf(const std::vector<FeatureSegment>& segments) {
@@ -92,10 +147,10 @@ void writeNastranGrid(TextWriter& out, std::size_t number, const Vec3& point) {
   out << "GRID*   ";
   writeField(out, std::to_string(number), kWide);
   writeField(out, "", kWide);
-  writeField(out, fittedNumber(point.x, kWide, false), kWide);
-  writeField(out, fittedNumber(point.y, kWide, false), kWide);
+  writeField(out, fittedNumber(point.x, kWide, ""), kWide);
+  writeField(out, fittedNumber(point.y, kWide, ""), kWide);
   out << "*\n*       ";
-  writeField(out, fittedNumber(point.z, kWide, false), kWide);
+  writeField(out, fittedNumber(point.z, kWide, ""), kWide);
   out << '\n';
 }
 
@@ -110,7 +165,7 @@ std::string writeInp(const QuadMesh& mesh, const WriteOptions& options) {
   for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
     const Vec3& point = mesh.positions[v];
     out << v + 1;
-    for (const double value : {point.x, point.y, point.z}) out << ", " << fittedNumber(value, kNumberWidth, true);
+    for (const double value : {point.x, point.y, point.z}) out << ", " << fittedNumber(value, kNumberWidth, "E");
     out << '\n';
   }
   const auto faces = elementsByFace(mesh);

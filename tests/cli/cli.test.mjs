@@ -1,0 +1,218 @@
+// The command line program as a user meets it: exit statuses, messages, files. QMCF is the program's path.
+import assert from 'node:assert/strict';
+import { spawn, spawnSync } from 'node:child_process';
+import { existsSync, mkdtempSync, readdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { after, before, test } from 'node:test';
+
+const program = process.env.QMCF;
+let folder;
+
+before(() => {
+  assert.ok(program, 'set QMCF to the program');
+  folder = mkdtempSync(join(tmpdir(), 'qmcf-cli-'));
+});
+after(() => rmSync(folder, { recursive: true, force: true }));
+
+/** Runs the program in the test's folder. */
+function qmcf(...args) {
+  const { status, stdout, stderr } = spawnSync(program, args, { cwd: folder, encoding: 'utf8' });
+  return { status, stdout, stderr };
+}
+
+const put = (name, content) => writeFileSync(join(folder, name), content);
+const get = (name) => readFileSync(join(folder, name), 'utf8');
+
+/** A cube of side 2 with outward faces, each of n x n quadrilaterals. */
+function cube(n = 1) {
+  const lines = [];
+  const faces = [];
+  const ids = new Map();
+  const vertex = (p) => {
+    const key = p.join(' ');
+    if (!ids.has(key)) {
+      ids.set(key, ids.size + 1);
+      lines.push(`v ${key}`);
+    }
+    return ids.get(key);
+  };
+  for (const [axis, side] of [0, 1, 2].flatMap((a) => [[a, -1], [a, 1]])) {
+    const at = (i, j) => {
+      const p = [0, 0, 0];
+      p[axis] = side;
+      p[(axis + 1) % 3] = -1 + (2 * i) / n;
+      p[(axis + 2) % 3] = side * (-1 + (2 * j) / n);
+      return vertex(p);
+    };
+    for (let i = 0; i < n; ++i) {
+      for (let j = 0; j < n; ++j) faces.push(`f ${at(i, j)} ${at(i + 1, j)} ${at(i + 1, j + 1)} ${at(i, j + 1)}`);
+    }
+  }
+  return [...lines, ...faces, ''].join('\n');
+}
+
+function binaryStl(triangles) {
+  const bytes = Buffer.alloc(84 + 50 * triangles);
+  bytes.writeUInt32LE(triangles, 80);
+  for (let t = 0; t < triangles; ++t) {
+    [0, 0, 1, t, 0, 0, t + 1, 0, 0, t, 1, 0].forEach((value, i) => bytes.writeFloatLE(value, 84 + 50 * t + 4 * i));
+  }
+  return bytes;
+}
+
+/** Exit 3, one sentence on stderr, nothing on stdout, no file. */
+function assertRefused(name, content, pattern) {
+  put(name, content);
+  for (const args of [['mesh', name, '-o', 'refused.obj'], ['field', name, '-o', 'refused.vtu'], ['info', name]]) {
+    const { status, stdout, stderr } = qmcf(...args);
+    assert.equal(status, 3, stderr);
+    assert.equal(stdout, '');
+    assert.match(stderr, pattern);
+    assert.equal(stderr.trimEnd().split('\n').length, 1, stderr);
+    assert.ok(stderr.startsWith(`qmcf: ${name}: `), stderr);
+  }
+  assert.deepEqual(readdirSync(folder).filter((file) => file.startsWith('refused')), []);
+}
+
+test('version and help', () => {
+  assert.match(qmcf('--version').stdout, /^qmcf \d+\.\d+\.\d+\n$/);
+  const help = qmcf('--help');
+  assert.equal(help.status, 0);
+  assert.match(help.stdout, /mesh[\s\S]*field[\s\S]*check[\s\S]*info/);
+  assert.match(qmcf('mesh', '--help').stdout, /--feature-angle/);
+});
+
+test('wrong usage is exit 2', () => {
+  put('cube.obj', cube());
+  const cases = [
+    [],
+    ['knead', 'cube.obj'],
+    ['mesh', 'cube.obj'],
+    ['mesh', 'cube.obj', '-o', 'a.obj', '--size', '1', '--quads', '5'],
+    ['mesh', 'cube.obj', '-o', 'a.obj', '--size', 'big'],
+    ['mesh', 'cube.obj', '-o', 'a.obj', '--size', '-1'],
+    ['mesh', 'cube.obj', '-o', 'a.obj', '--size', 'nan'],
+    ['mesh', 'cube.obj', '-o', 'a.obj', '--quads', '0'],
+    ['mesh', 'cube.obj', '-o', 'a.obj', '--feature-angle', '180'],
+    ['mesh', 'cube.obj', '-o', 'a.obj', '--mode', 'fast'],
+    ['mesh', 'cube.obj', '-o', 'a.dwg'],
+    ['mesh', 'cube.obj', '-o', 'no/such/folder/a.obj'],
+    ['mesh', 'cube.obj', '-o', 'a.obj', '--report', 'no/such/folder/a.json'],
+    ['field', 'cube.obj', '-o', 'a.obj'],
+  ];
+  for (const args of cases) {
+    const { status, stdout, stderr } = qmcf(...args);
+    assert.equal(status, 2, `${args.join(' ')}: ${stderr}`);
+    assert.notEqual(stderr, '');
+    assert.equal(stdout, '');
+  }
+  assert.equal(existsSync(join(folder, 'a.obj')), false);
+});
+
+test('unusable input is exit 3 with a sentence', () => {
+  const missing = qmcf('mesh', 'missing.obj', '-o', 'refused.obj');
+  assert.equal(missing.status, 3);
+  assert.match(missing.stderr, /missing\.obj: .*No such file/);
+  assertRefused('empty.obj', '', /empty/);
+  assertRefused('cut.stl', binaryStl(20).subarray(0, 500), /announces 20 triangles but ends after 8/);
+  assertRefused('range.obj', 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 1 2 7\n', /Line 5: vertex 7 .* only 3 vertices/);
+  assertRefused('nan.obj', 'v 0 0 0\nv 1 nan 0\nv 0 1 0\nf 1 2 3\n', /Line 2: the coordinate "nan" is not a finite/);
+  assertRefused('flat.obj', 'v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n', /area/);
+  assertRefused('part.step', 'ISO-10303-21;\nHEADER;\n', /STEP/);
+});
+
+test('info prints what was read and recovered', () => {
+  put('cube.obj', cube());
+  const text = qmcf('info', 'cube.obj');
+  assert.equal(text.status, 0, text.stderr);
+  assert.match(text.stdout, /OBJ, 8 vertices, 6 faces cut into 12 triangles/);
+  assert.match(text.stdout, /1 body \(1 closed\), 6 faces, 6 loops, 12 edges \(12 sharp\), 8 vertices/);
+  const info = JSON.parse(qmcf('info', 'cube.obj', '--json').stdout);
+  assert.equal(info.input.polygons, 6);
+  assert.equal(info.counts.edges.sharp, 12);
+  assert.equal(info.faces.length, 6);
+  assert.equal(qmcf('info', 'cube.obj', '--feature-angle', '120').stdout.includes('12 sharp'), false);
+});
+
+test('mesh writes a mesh that check finds valid, with report and summary', () => {
+  put('cube.obj', cube());
+  const run = qmcf('mesh', 'cube.obj', '-o', 'out.obj', '--size', '0.25', '--report', 'out.json');
+  assert.equal(run.status, 0, run.stderr);
+  assert.equal(run.stderr, '');
+  assert.match(run.stdout, /Mesh .* quads/);
+  const report = JSON.parse(get('out.json'));
+  assert.equal(report.size, 0.25);
+  assert.equal(report.quality.valid, true);
+  assert.equal(get('out.obj').match(/^f /gm).length, report.quality.quads + report.quality.triangles);
+
+  const check = qmcf('check', 'out.obj', '--ref', 'cube.obj');
+  assert.equal(check.status, 0, check.stdout + check.stderr);
+  assert.match(check.stdout, /Valid/);
+  const quality = JSON.parse(qmcf('check', 'out.obj', '--ref', 'cube.obj', '--json').stdout);
+  assert.equal(quality.sharpRecall, 1);
+  assert.equal(quality.cornerRecall, 1);
+  assert.equal(quality.eulerCharacteristic, 2);
+  assert.equal(quality.quads, report.quality.quads);
+});
+
+test('the same input gives the same bytes, and the extension chooses the format', () => {
+  put('cube.obj', cube());
+  const signs = { obj: '# Quad', vtu: '<?xml', ply: 'ply\n', stl: 'Quad', msh: '$MeshFormat', inp: '*HEADING', bdf: '$ Quad' };
+  for (const [extension, sign] of Object.entries(signs)) {
+    const files = [`one.${extension}`, `two.${extension}`];
+    for (const file of files) {
+      const run = qmcf('mesh', 'cube.obj', '-o', file, '--quads', '60', '--quiet');
+      assert.deepEqual(run, { status: 0, stdout: '', stderr: '' });
+    }
+    assert.equal(get(files[0]), get(files[1]));
+    assert.ok(get(files[0]).startsWith(sign), extension);
+  }
+});
+
+test('check says what is wrong with a mesh and exits 1', () => {
+  put('cube.obj', cube());
+  put('open.obj', cube(4).replace(/f [^\n]*\n$/, ''));
+  const { status, stdout } = qmcf('check', 'open.obj', '--ref', 'cube.obj');
+  assert.equal(status, 1);
+  assert.match(stdout, /INVALID/);
+  assert.match(stdout, /fail +boundary: 4 edges/);
+  put('turned.obj', cube(4).replace(/f (\d+) (\d+) (\d+) (\d+)/, 'f $4 $3 $2 $1'));
+  assert.equal(qmcf('check', 'turned.obj').status, 1);
+  put('fine.obj', cube(4));
+  assert.equal(qmcf('check', 'fine.obj', '--ref', 'cube.obj').status, 0);
+  put('pentagon.obj', 'v 0 0 0\nv 1 0 0\nv 2 1 0\nv 1 2 0\nv 0 1 0\nf 1 2 3 4 5\n');
+  assert.equal(qmcf('check', 'pentagon.obj').status, 3);
+});
+
+test('field writes directions and singularities', () => {
+  put('cube.obj', cube());
+  const run = qmcf('field', 'cube.obj', '-o', 'field.vtu', '--size', '0.5');
+  assert.equal(run.status, 0, run.stderr);
+  assert.match(run.stdout, /0 singularities/);
+  assert.match(get('field.vtu'), /Name="direction" NumberOfComponents="3"/);
+});
+
+test('the output replaces an old file only when it is complete', () => {
+  put('cube.obj', cube());
+  put('old.obj', 'the old content');
+  put('bad.obj', 'v 0 0 0\nf 1 2 3\n');
+  assert.equal(qmcf('mesh', 'bad.obj', '-o', 'old.obj').status, 3);
+  assert.equal(get('old.obj'), 'the old content');
+  assert.equal(qmcf('mesh', 'cube.obj', '-o', 'old.obj', '--size', '1').status, 0);
+  assert.match(get('old.obj'), /^# Quad/);
+  assert.deepEqual(readdirSync(folder).filter((file) => file.includes('.part-')), []);
+});
+
+test('Ctrl-C cancels: exit 4, one sentence, no output', async () => {
+  put('cube.obj', cube(60));
+  const child = spawn(program, ['mesh', 'cube.obj', '-o', 'cancelled.obj', '--quads', '2000000'], { cwd: folder });
+  let stderr = '';
+  child.stderr.on('data', (data) => (stderr += data));
+  const ended = new Promise((resolve) => child.on('exit', (status, signal) => resolve({ status, signal })));
+  await new Promise((resolve) => setTimeout(resolve, 1000));
+  child.kill('SIGINT');
+  assert.deepEqual(await ended, { status: 4, signal: null });
+  assert.match(stderr, /cancelled/);
+  assert.deepEqual(readdirSync(folder).filter((file) => file.startsWith('cancelled')), []);
+});
