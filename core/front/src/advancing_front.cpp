@@ -19,6 +19,9 @@ namespace {
 
 /// Least quality of a new quad and of the triangles beside it, by how desperate the front is.
 constexpr std::array<double, 3> kLeastQuad{0.3, 0.12, 0.03};
+/// Shortest and longest side of a new quad in element sizes, likewise.
+constexpr std::array<double, 3> kShortest{0.4, 0.25, 0.0};
+constexpr std::array<double, 3> kLongest{1.9, 2.8, 6.0};
 constexpr int kPasses = static_cast<int>(kLeastQuad.size());
 constexpr std::size_t kMaxAttempts = 6;
 
@@ -39,6 +42,7 @@ class Advance {
   std::vector<SideProposal> sides(HalfedgeId sector, int wanted, bool left, const std::optional<Vec3>& closure, int pass) const;
   bool tryQuad(HalfedgeId base, const SideProposal& left, const SideProposal& right, int pass);
   VertexId realize(HalfedgeId sector, const SideProposal& side);
+  bool fitsSize(VertexId a, VertexId b, int pass) const;
   int oddLoops(const std::vector<HalfedgeId>& edges) const;
   std::vector<HalfedgeId> frontEdgesAt(VertexId v) const;
   void finishQuad(FaceId f, int level);
@@ -108,6 +112,13 @@ VertexId Advance::realize(HalfedgeId sector, const SideProposal& side) {
   if (side.existing.valid()) return side.existing;
   constexpr double kReuse = 0.4;
   return insertVertex(front_, sector, side.vertex, kReuse * front_.sizeAt(side.vertex.location));
+}
+
+bool Advance::fitsSize(VertexId a, VertexId b, int pass) const {
+  const EditMesh& view = front_.mesh();
+  const double size = 0.5 * (front_.sizeAt(view.vertex(a).location) + front_.sizeAt(view.vertex(b).location));
+  const double length = distance(view.position(a), view.position(b)) / size;
+  return length >= kShortest[static_cast<std::size_t>(pass)] && length <= kLongest[static_cast<std::size_t>(pass)];
 }
 
 std::vector<SideProposal> Advance::sides(HalfedgeId sector, int wanted, bool left, const std::optional<Vec3>& closure, int pass) const {
@@ -210,6 +221,9 @@ bool Advance::tryQuad(HalfedgeId base, const SideProposal& left, const SidePropo
   if (!leftThere && !recoverEdge(front_, base, d).valid()) return undo();
   const VertexId c = realize(following, right);
   if (!c.valid() || c == d) return undo();
+  if (!leftThere && !fitsSize(a, d, pass)) return undo();
+  if (!rightThere && !fitsSize(b, c, pass)) return undo();
+  if (!fitsSize(c, d, pass)) return undo();
   if (!rightThere && !recoverEdge(front_, following, c).valid()) return undo();
   const HalfedgeId downwards = m.find(d, a);
   if (!downwards.valid() || !m.isOpen(downwards)) return undo();
