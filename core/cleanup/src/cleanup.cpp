@@ -67,9 +67,11 @@ Result<CleanupResult> cleanUp(const FaceMesh& mesh, const Patch& patch, const Tr
     work.commit();
     if (largest < kStill) break;
   }
-  CleanupResult result{extract(work, mesh), topology.statistics(), 1.0};
+  CleanupResult result{extract(work, mesh), topology.statistics(), 1.0, 0};
   for (std::size_t i = 0; i < work.faceCapacity(); ++i) {
-    if (work.kind(FaceId(i)) != FaceKind::removed) result.worstShape = std::min(result.worstShape, faceShape(work, FaceId(i)));
+    if (work.kind(FaceId(i)) == FaceKind::removed) continue;
+    result.worstShape = std::min(result.worstShape, faceShape(work, FaceId(i)));
+    result.inverted += isInverted(work, FaceId(i)) ? 1 : 0;
   }
   return result;
 }

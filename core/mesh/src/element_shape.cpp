@@ -5,8 +5,10 @@
 namespace qmcf {
 namespace {
 
-/// A corner whose area, seen along the surface normal, is less than this share of its side lengths' product is folded.
-constexpr double kFolded = 0.05;
+/// A corner that leans away from the surface by more than about 65 degrees counts as bad, by more than about 80 as
+/// turned over: the input's facets there may lean still more.
+constexpr double kLeaning = 0.4;
+constexpr double kFolded = 0.2;
 
 }  // namespace
 
@@ -22,7 +24,8 @@ double quadShape(const EditMesh& mesh, const std::array<VertexId, 4>& corners) {
     const Vec3 corner = cross(forward, backward) / lengths;
     // Against the element's own normal the scaled Jacobian; against the surface's a fold shows.
     worst = std::min(worst, dot(corner, normal));
-    if (dot(corner, mesh.normal(corners[i])) < kFolded) worst = std::min(worst, dot(corner, mesh.normal(corners[i])));
+    const double upright = dot(corner, mesh.normal(corners[i]));
+    if (upright < kLeaning) worst = std::min(worst, upright - kFolded);
   }
   return worst;
 }
@@ -44,6 +47,18 @@ double faceShape(const EditMesh& mesh, FaceId f) {
   const VertexId b = mesh.origin(sides[1]);
   const VertexId c = mesh.origin(sides[2]);
   return sides[3].valid() ? quadShape(mesh, {a, b, c, mesh.origin(sides[3])}) : triangleShape(mesh, a, b, c);
+}
+
+bool isInverted(const EditMesh& mesh, FaceId f) {
+  const auto sides = mesh.sides(f);
+  if (!sides[3].valid()) return !(faceShape(mesh, f) > 0.0);
+  const auto p = [&](std::size_t i) -> const Vec3& { return mesh.position(mesh.origin(sides[i % 4])); };
+  const Vec3 normal = cross(p(2) - p(0), p(3) - p(1));
+  for (std::size_t i = 0; i < 4; ++i) {
+    const Vec3 corner = cross(p(i + 1) - p(i), p(i + 3) - p(i));
+    if (!(dot(corner, normal) > 0.0) || !(dot(corner, mesh.normal(mesh.origin(sides[i]))) > 0.0)) return true;
+  }
+  return false;
 }
 
 double worstShapeAround(const EditMesh& mesh, VertexId v) {

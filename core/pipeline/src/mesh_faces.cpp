@@ -9,9 +9,6 @@
 namespace qmcf {
 namespace {
 
-/// An element this badly shaped counts as turned over.
-constexpr double kLeastShape = 1e-3;
-
 TriangleBvh faceTree(const TriangleMesh& mesh, const BrepFace& face) {
   std::vector<std::array<std::int32_t, 3>> triangles;
   for (const std::int32_t t : face.triangles) triangles.push_back(mesh.triangles[static_cast<std::size_t>(t)]);
@@ -55,7 +52,7 @@ Result<MeshedFace> meshFace(const TriangleMesh& mesh, const Brep& brep, const Pr
   if (!front) return front.error();
   auto cleaned = cleanUp(front.value().mesh, patch, tree, CleanupOptions{}, progress);
   if (!cleaned) return cleaned.error();
-  if (cleaned.value().worstShape > kLeastShape) {
+  if (cleaned.value().inverted == 0) {
     result.mesh = std::move(cleaned.value().mesh);
     result.report.method = "qmcf";
     count(result);
@@ -64,7 +61,7 @@ Result<MeshedFace> meshFace(const TriangleMesh& mesh, const Brep& brep, const Pr
   result.report.reason = "the advancing front left an element that is turned over";
   auto paired = cleanUp(recombinePatch(patch).mesh, patch, tree, CleanupOptions{}, progress);
   if (!paired) return paired.error();
-  if (paired.value().worstShape > kLeastShape) {
+  if (paired.value().inverted == 0) {
     result.mesh = std::move(paired.value().mesh);
     result.report.method = "recombined";
   } else {

@@ -29,7 +29,8 @@ struct CleanupStatistics {
 struct CleanupResult {
   FaceMesh mesh;
   CleanupStatistics statistics;
-  double worstShape = 1.0;          ///< Smallest scaled Jacobian or triangle shape; > 0 in a valid mesh.
+  double worstShape = 1.0;          ///< Smallest quadShape() or triangleShape().
+  std::int64_t inverted = 0;        ///< Elements that are turned over; 0 in a valid mesh.
 };
 
 /// Makes a quad-dominant mesh of one face more regular and its elements squarer. Boundary vertices keep their places,

@@ -7,7 +7,7 @@
 namespace qmcf {
 
 /// Scaled Jacobian of a quadrilateral: the smallest corner determinant, about the normal of its diagonals, over the product
-/// of the two sides, in [-1, 1]. Negative also when a corner is turned over against the surface normal there.
+/// of the two sides, in [-1, 1]. Less, down to -1.2, where a corner leans away from the surface normal there.
 double quadShape(const EditMesh& mesh, const std::array<VertexId, 4>& corners);
 
 /// Shape of a triangle along the mean normal: 2 sqrt(3) |AB x AC| / (sum of squared sides), 1 for the equilateral one,
@@ -16,6 +16,9 @@ double triangleShape(const EditMesh& mesh, VertexId a, VertexId b, VertexId c);
 
 /// quadShape() or triangleShape() of a face.
 double faceShape(const EditMesh& mesh, FaceId f);
+
+/// Whether a corner of the face is turned over, against the face's own normal or the surface's.
+bool isInverted(const EditMesh& mesh, FaceId f);
 
 /// The worst faceShape() around a vertex.
 double worstShapeAround(const EditMesh& mesh, VertexId v);
