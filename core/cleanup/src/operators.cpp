@@ -77,6 +77,13 @@ std::vector<VertexId> cornersOf(const EditMesh& mesh, const std::vector<FaceId>&
   return corners;
 }
 
+/// What a vertex adds to the irregularity energy. A boundary vertex with too few elements has a straight or reflex corner
+/// in one of them, which no relaxation can mend.
+int irregularity(bool boundary, int excess) {
+  constexpr int kReflex = 4;
+  return boundary && excess < 0 ? kReflex * excess * excess : excess * excess;
+}
+
 bool allQuads(const EditMesh& mesh, const std::vector<FaceId>& faces) {
   return std::all_of(faces.begin(), faces.end(), [&](FaceId f) { return mesh.cornerCount(f) == 4; });
 }
@@ -145,15 +152,15 @@ bool TopologicalCleanup::collapseDiagonal(HalfedgeId corner) {
   const VertexId c = mesh_.origin(opposite);
   const VertexId d = mesh_.origin(mesh_.prev(corner));
   if (mesh_.isBoundary(c)) return false;
-  const auto square = [](int x) { return x * x; };
+  const auto cost = [&](VertexId v, int e) { return irregularity(mesh_.isBoundary(v), e); };
   const int ea = excess(a);
   const int eb = excess(b);
   const int ec = excess(c);
   const int ed = excess(d);
   // a keeps its elements and gains those of c, less the two halves of the quad; a boundary vertex wants its own number.
   const int merged = ea + (ec + 4) - 2;
-  const int before = square(ea) + square(eb) + square(ec) + square(ed);
-  if (square(merged) + square(eb - 1) + square(ed - 1) >= before) return false;
+  const int before = cost(a, ea) + cost(b, eb) + cost(c, ec) + cost(d, ed);
+  if (cost(a, merged) + cost(b, eb - 1) + cost(d, ed - 1) >= before) return false;
   std::vector<VertexId> vertices;
   mesh_.forEachOutgoing(c, [&](HalfedgeId h) { vertices.push_back(mesh_.target(h)); });
   vertices.push_back(a);
@@ -182,7 +189,7 @@ bool TopologicalCleanup::refill(const std::vector<FaceId>& cavity) {
   std::vector<VertexId> vertices;
   std::vector<int> outside;
   int energyBefore = 0;
-  for (const VertexId v : cornersOf(mesh_, cavity)) energyBefore += excess(v) * excess(v);
+  for (const VertexId v : cornersOf(mesh_, cavity)) energyBefore += irregularity(mesh_.isBoundary(v), excess(v));
   for (const HalfedgeId h : *loop) {
     const VertexId v = mesh_.origin(h);
     vertices.push_back(v);
@@ -198,7 +205,9 @@ bool TopologicalCleanup::refill(const std::vector<FaceId>& cavity) {
       for (const int i : cell) ++count[static_cast<std::size_t>(i)];
     }
     int energy = 0;
-    for (const int e : count) energy += e * e;
+    for (std::size_t i = 0; i < count.size(); ++i) {
+      energy += irregularity(i < vertices.size() && mesh_.isBoundary(vertices[i]), count[i]);
+    }
     if (energy < energyBefore) better.emplace_back(energy, w);
   }
   std::sort(better.begin(), better.end());
