@@ -1,0 +1,184 @@
+#include "qmcf/sizing/divide.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "qmcf/base/random.hpp"
+#include "qmcf/sizing/edge_curve.hpp"
+#include "sizing/parts.hpp"
+
+namespace qmcf {
+namespace {
+
+struct Divided {
+  TriangleMesh mesh;
+  Brep brep;
+  SizeField field;
+  DividedEdges edges;
+};
+
+Divided divide(TriangleMesh mesh, double size, const std::vector<std::int32_t>& minimum = {}) {
+  Divided d;
+  d.mesh = std::move(mesh);
+  d.brep = parts::brepOf(d.mesh);
+  SizingOptions options;
+  options.size = size;
+  SilentProgress progress;
+  Result<SizeField> field = computeSizeField(d.mesh, d.brep, options, progress);
+  EXPECT_TRUE(field.ok());
+  d.field = std::move(field).value();
+  d.edges = divideEdges(d.mesh, d.brep, d.field, minimum);
+  return d;
+}
+
+std::int64_t divisions(const Divided& d, std::int32_t edge) {
+  return static_cast<std::int64_t>(d.edges.edges[static_cast<std::size_t>(edge)].nodes.size()) - 1;
+}
+
+std::int64_t oddFaces(const Divided& d) {
+  std::int64_t odd = 0;
+  for (const BrepFace& face : d.brep.faces) {
+    std::int64_t sum = 0;
+    for (const BrepLoop& loop : face.loops) {
+      for (const Coedge& coedge : loop.coedges) sum += divisions(d, coedge.edge);
+    }
+    odd += sum % 2;
+  }
+  return odd;
+}
+
+/// Integral of ds / h over [from, to] of an edge, by the midpoint rule.
+double integral(const EdgeSizes& sizes, double from, double to) {
+  constexpr int kSteps = 2000;
+  double sum = 0.0;
+  for (int i = 0; i < kSteps; ++i) {
+    const double s = from + (to - from) * (i + 0.5) / kSteps;
+    sum += (to - from) / kSteps / interpolate(sizes.arcLength, sizes.value, s);
+  }
+  return sum;
+}
+
+double distanceToCurve(const EdgeCurve& curve, const Vec3& p) {
+  double best = HUGE_VAL;
+  for (std::size_t i = 0; i + 1 < curve.points.size(); ++i) {
+    const Vec3 along = curve.points[i + 1] - curve.points[i];
+    const double t = std::clamp(dot(p - curve.points[i], along) / squaredNorm(along), 0.0, 1.0);
+    best = std::min(best, distance(curve.points[i] + along * t, p));
+  }
+  return best;
+}
+
+TEST(DivideEdges, EveryFaceOfABoxOfAnySizeIsEven) {
+  Random random(3);
+  for (int i = 0; i < 60; ++i) {
+    const Divided d = divide(parts::box(random.uniform(0.5, 9.0), random.uniform(0.5, 9.0), random.uniform(0.5, 9.0)),
+                             random.uniform(0.2, 1.5));
+    EXPECT_EQ(d.edges.oddFaces, 0);
+    EXPECT_EQ(oddFaces(d), 0);
+    for (std::size_t e = 0; e < d.brep.edges.size(); ++e) {
+      const double wanted = integral(d.field.edges[e], 0.0, d.brep.edges[e].length);
+      EXPECT_NEAR(static_cast<double>(divisions(d, static_cast<std::int32_t>(e))), std::max(wanted, 1.0), 1.5);
+    }
+  }
+}
+
+TEST(DivideEdges, MinimaAreKeptAndFacesStayEven) {
+  Random random(5);
+  for (int i = 0; i < 60; ++i) {
+    std::vector<std::int32_t> minimum;
+    for (int e = 0; e < 12; ++e) minimum.push_back(1 + static_cast<std::int32_t>(random.uniform(0.0, 12.0)));
+    const Divided d = divide(parts::box(3.0, 4.0, 5.0), 1.0, minimum);
+    EXPECT_EQ(oddFaces(d), 0);
+    for (std::int32_t e = 0; e < 12; ++e) EXPECT_GE(divisions(d, e), minimum[static_cast<std::size_t>(e)]);
+  }
+}
+
+TEST(DivideEdges, OppositeSidesOfABoxAgree) {
+  const Divided d = divide(parts::box(3.3, 4.7, 5.2), 0.7);
+  for (const BrepFace& face : d.brep.faces) {
+    const auto& sides = face.loops[0].coedges;
+    ASSERT_EQ(sides.size(), 4U);
+    EXPECT_EQ(divisions(d, sides[0].edge), divisions(d, sides[2].edge));
+    EXPECT_EQ(divisions(d, sides[1].edge), divisions(d, sides[3].edge));
+  }
+}
+
+TEST(DivideEdges, SheetsAtANonManifoldEdgeAreEven) {
+  for (const double size : {0.13, 0.21, 0.34, 0.55}) {
+    const Divided d = divide(parts::tee(), size);
+    EXPECT_EQ(d.edges.oddFaces, 0);
+    EXPECT_EQ(oddFaces(d), 0);
+  }
+}
+
+TEST(DivideEdges, CirclesHaveEightDivisionsWhenTheSizeIsLarge) {
+  for (const int segments : {12, 32, 100}) {
+    const Divided d = divide(parts::disk(segments, 1.0), 3.0);
+    ASSERT_EQ(d.edges.edges.size(), 1U);
+    EXPECT_EQ(divisions(d, 0), 8) << segments;
+    EXPECT_EQ(d.edges.edges[0].nodes.front(), d.edges.edges[0].nodes.back());
+  }
+}
+
+TEST(DivideEdges, TinyHolesHaveEightDivisions) {
+  const Divided d = divide(parts::plateWithHole(5.0, {}, 0.01, 32), 1.0);
+  for (std::size_t e = 0; e < d.brep.edges.size(); ++e) {
+    if (d.brep.edges[e].start == d.brep.edges[e].end) {
+      EXPECT_GE(divisions(d, static_cast<std::int32_t>(e)), 8);
+    }
+  }
+}
+
+TEST(DivideEdges, QuarterArcHasTwoDivisionsWhenTheSizeIsLarge) {
+  const Divided d = divide(parts::disk(24, 1.0, 0.25), 1.5);
+  for (std::size_t e = 0; e < d.brep.edges.size(); ++e) {
+    if (d.brep.edges[e].points.size() > 2) {
+      EXPECT_GE(divisions(d, static_cast<std::int32_t>(e)), 2);
+    }
+  }
+}
+
+TEST(DivideEdges, CornersOfACoarsePolygonGetNodes) {
+  const Divided d = divide(parts::disk(12, 1.0), 0.2);
+  for (const Vec3& corner : d.mesh.positions) {
+    double nearest = HUGE_VAL;
+    for (const Vec3& node : d.edges.nodes) nearest = std::min(nearest, distance(node, corner));
+    EXPECT_LT(nearest, 1e-9);
+  }
+}
+
+TEST(DivideEdges, NodesLieOnTheEdgeAtEqualPartsOfTheIntegral) {
+  const Divided d = divide(parts::plateWithHole(5.0, {3.0, 1.0, 0.0}, 0.5, 64), 1.0);
+  ASSERT_GE(d.edges.nodes.size(), d.brep.vertices.size());
+  ASSERT_EQ(d.edges.nodes.size(), d.edges.nodeSize.size());
+  for (std::size_t v = 0; v < d.brep.vertices.size(); ++v) {
+    EXPECT_EQ(d.edges.nodes[v], d.mesh.positions[static_cast<std::size_t>(d.brep.vertices[v].point)]);
+  }
+  for (std::size_t e = 0; e < d.brep.edges.size(); ++e) {
+    const EdgeDivision& division = d.edges.edges[e];
+    const EdgeCurve curve = edgeCurve(d.mesh, d.brep.edges[e]);
+    EXPECT_EQ(division.nodes.front(), d.brep.edges[e].start);
+    EXPECT_EQ(division.nodes.back(), d.brep.edges[e].end);
+    ASSERT_EQ(division.nodes.size(), division.arcLength.size());
+    const double whole = integral(d.field.edges[e], 0.0, curve.length());
+    for (std::size_t i = 0; i + 1 < division.nodes.size(); ++i) {
+      EXPECT_LT(division.arcLength[i], division.arcLength[i + 1]);
+      const auto node = static_cast<std::size_t>(division.nodes[i]);
+      EXPECT_LT(distanceToCurve(curve, d.edges.nodes[node]), 1e-12);
+      const double part = integral(d.field.edges[e], division.arcLength[i], division.arcLength[i + 1]);
+      EXPECT_NEAR(part, whole / static_cast<double>(division.nodes.size() - 1), 0.03 * part);
+    }
+  }
+}
+
+TEST(DivideEdges, IsTheSameEveryTime) {
+  const Divided a = divide(parts::plateWithHole(5.0, {3.0, 1.0, 0.0}, 0.5, 64), 0.3);
+  const Divided b = divide(parts::plateWithHole(5.0, {3.0, 1.0, 0.0}, 0.5, 64), 0.3);
+  EXPECT_EQ(a.edges.nodes, b.edges.nodes);
+  EXPECT_EQ(a.edges.nodeSize, b.edges.nodeSize);
+}
+
+}  // namespace
+}  // namespace qmcf
