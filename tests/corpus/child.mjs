@@ -8,6 +8,20 @@ const TIME_FORMAT = 'QMCF_COST %U %S %M';
 const TICKS_PER_SECOND = 100; // of /proc/PID/stat, on every Linux
 const POLL_MILLISECONDS = 20;
 
+/** Process groups that would outlive this program when it is interrupted. */
+const running = new Set();
+
+function endGroup(pid) {
+  try {
+    process.kill(-pid, 'SIGKILL');
+  } catch {
+    // it has just ended by itself
+  }
+}
+
+process.on('exit', () => running.forEach(endGroup));
+for (const signal of ['SIGINT', 'SIGTERM']) process.on(signal, () => process.exit(130));
+
 /**
  * Resolves to { exit, signal, timedOut, stdout, stderr, seconds, cpuSeconds, peakMegabytes }.
  * CPU and memory come from the time program, where there is one, else from looking at /proc now and then.
@@ -19,15 +33,17 @@ export function runMeasured(program, args, timeoutSeconds) {
     const started = process.hrtime.bigint();
     // A group of its own, so that the time program and what it runs end together.
     const child = spawn(command[0], command.slice(1), { detached: true, stdio: ['ignore', 'pipe', 'pipe'] });
+    running.add(child.pid);
     const result = { exit: null, signal: null, timedOut: false, stdout: '', stderr: '', cpuSeconds: null, peakMegabytes: null };
     child.stdout.on('data', (data) => { result.stdout += data; });
     child.stderr.on('data', (data) => { result.stderr += data; });
     const poll = timed ? null : setInterval(() => Object.assign(result, readProc(child.pid)), POLL_MILLISECONDS);
     const timer = setTimeout(() => {
       result.timedOut = true;
-      process.kill(-child.pid, 'SIGKILL');
+      endGroup(child.pid);
     }, timeoutSeconds * 1000);
     const finish = (exit, signal) => {
+      running.delete(child.pid);
       clearTimeout(timer);
       clearInterval(poll);
       result.seconds = Number(process.hrtime.bigint() - started) / 1e9;
