@@ -24,7 +24,7 @@ double quadShape(const EditMesh& mesh, const std::array<VertexId, 4>& corners) {
     const Vec3 corner = cross(forward, backward) / lengths;
     // Against the element's own normal the scaled Jacobian; against the surface's a fold shows.
     worst = std::min(worst, dot(corner, normal));
-    const double upright = dot(corner, mesh.normal(corners[i]));
+    const double upright = dot(normalized(corner), mesh.normal(corners[i]));
     if (upright < kLeaning) worst = std::min(worst, upright - kFolded);
   }
   return worst;
