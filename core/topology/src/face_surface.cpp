@@ -52,6 +52,39 @@ detail::Triangles localTriangles(const TriangleMesh& mesh, const BrepFace& face,
   return local;
 }
 
+/// The mesh vertices at the ends of the face's edges, ascending.
+std::vector<std::int32_t> cornerPoints(const Brep& brep, const BrepFace& face) {
+  std::vector<std::int32_t> corners;
+  for (const BrepLoop& loop : face.loops) {
+    for (const Coedge& coedge : loop.coedges) {
+      const BrepEdge& edge = brep.edges[static_cast<std::size_t>(coedge.edge)];
+      corners.insert(corners.end(), {edge.points.front(), edge.points.back()});
+    }
+  }
+  std::sort(corners.begin(), corners.end());
+  return corners;
+}
+
+/// The same walk over the same half-edges in the same order as in recoverBrep() gives the same loops.
+std::vector<std::vector<HalfedgeId>> traceLoops(const detail::TriangleEdges& edges, const detail::Fans& fans,
+                                                const IdMap<detail::EdgeId, std::uint8_t>& cut,
+                                                const std::vector<std::int32_t>& points,
+                                                const std::vector<std::int32_t>& corners) {
+  std::vector<std::vector<HalfedgeId>> loops;
+  std::vector<std::uint8_t> visited(edges.halfedgeCount(), 0);
+  for (const HalfedgeId first : edges.halfedges()) {
+    if (visited[first.index()] != 0 || cut[edges.edge(first)] == 0) continue;
+    if (!std::binary_search(corners.begin(), corners.end(), points[edges.origin(first).index()])) continue;
+    std::vector<HalfedgeId> loop;
+    for (HalfedgeId h = first; visited[h.index()] == 0; h = nextCut(fans, h)) {
+      visited[h.index()] = 1;
+      loop.push_back(h);
+    }
+    loops.push_back(std::move(loop));
+  }
+  return loops;
+}
+
 }  // namespace
 
 FaceSurface faceSurface(const TriangleMesh& mesh, const Brep& brep, std::int32_t face) {
@@ -90,26 +123,7 @@ FaceSurface faceSurface(const TriangleMesh& mesh, const Brep& brep, std::int32_t
 
   result.edge.resize(edges.halfedgeCount(), kNone);
   for (const HalfedgeId h : edges.halfedges()) result.edge[h] = brepEdge[edges.edge(h)];
-  // The same walk over the same half-edges in the same order as in recoverBrep() gives the same loops.
-  std::vector<std::int32_t> corners;
-  for (const BrepLoop& loop : source.loops) {
-    for (const Coedge& coedge : loop.coedges) {
-      const BrepEdge& edge = brep.edges[static_cast<std::size_t>(coedge.edge)];
-      corners.insert(corners.end(), {edge.points.front(), edge.points.back()});
-    }
-  }
-  std::sort(corners.begin(), corners.end());
-  std::vector<std::uint8_t> visited(edges.halfedgeCount(), 0);
-  for (const HalfedgeId first : edges.halfedges()) {
-    if (visited[first.index()] != 0 || cut[edges.edge(first)] == 0) continue;
-    if (!std::binary_search(corners.begin(), corners.end(), points[edges.origin(first).index()])) continue;
-    std::vector<HalfedgeId> loop;
-    for (HalfedgeId h = first; visited[h.index()] == 0; h = nextCut(fans, h)) {
-      visited[h.index()] = 1;
-      loop.push_back(h);
-    }
-    result.loops.push_back(std::move(loop));
-  }
+  result.loops = traceLoops(edges, fans, cut, points, cornerPoints(brep, source));
   return result;
 }
 
