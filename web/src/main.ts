@@ -36,7 +36,8 @@ makeSheet(panel);
 const fit = button(icons.fit(), { class: 'fit', 'aria-label': 'Fit the view', title: 'Fit the view' }, () => viewer.fit());
 const views = viewBar(store, session);
 const app = document.querySelector('#app')!;
-app.append(canvas, panel, views, displayCard(store, session), fit, gallery(store, session), dropZone(session));
+const display = displayCard(store, session);
+app.append(canvas, panel, views, display, fit, gallery(store, session), dropZone(session));
 
 const viewer = new Viewer(canvas);
 
@@ -45,8 +46,9 @@ function trackFreeArea(): void {
   const measure = () => {
     const { clientWidth: width, clientHeight: height } = canvas;
     const covered = panel.getBoundingClientRect();
-    const bar = views.offsetHeight > 0 ? views.getBoundingClientRect().bottom : 0;
     const isSheet = covered.width > 0.9 * width;
+    // On a small screen the switches are below the view bar, else in a corner.
+    const bar = (isSheet ? display.firstElementChild! : views).getBoundingClientRect().bottom;
     const left = isSheet ? 0 : covered.right;
     const bottom = isSheet ? covered.top : height;
     viewer.setFreeArea({ left, top: bar, width: Math.max(80, width - left), height: Math.max(80, bottom - bar) });
@@ -54,7 +56,7 @@ function trackFreeArea(): void {
   const observer = new ResizeObserver(measure);
   observer.observe(panel);
   observer.observe(canvas);
-  observer.observe(views);
+  observer.observe(display);
 }
 
 function draw(state: State, before: State): void {

@@ -1,4 +1,6 @@
 import type { FieldResult } from 'qmcf';
+import type { LineMaterial } from 'three/addons/lines/LineMaterial.js';
+import { LineSegments2 } from 'three/addons/lines/LineSegments2.js';
 import type { Frame } from './frame.js';
 import { Layer } from './layer.js';
 import { lineSegments } from './lines.js';
@@ -10,16 +12,38 @@ const armLength = 0.3;
 /** Height above the surface, in element sizes. */
 const lift = 0.04;
 
+/** Width of the lines in element sizes, and its limits in CSS pixels: small crosses must not run into each other. */
+const relativeWidth = 0.075;
+const widthLimits = [0.45, 1.7] as const;
+/** Pinned crosses are that much bolder. */
+const pinnedFactor = 1.5;
+
 /** The crosses, those that are pinned in another colour, and the singularities. */
 export class FieldLayer extends Layer {
+  private lines: { readonly material: LineMaterial; readonly factor: number }[] = [];
+  private size = 0;
+
+  /** Fits the lines to what a length of 1 measures on the screen, in CSS pixels. */
+  setZoom(pixels: number): void {
+    const width = Math.min(widthLimits[1], Math.max(widthLimits[0], relativeWidth * this.size * pixels));
+    for (const { material, factor } of this.lines) {
+      material.linewidth = width * factor;
+    }
+  }
+
   show(field: FieldResult, frame: Frame, palette: Palette): void {
     this.clear();
+    this.lines = [];
+    this.size = frame.length(field.size);
     for (const pinned of [false, true]) {
       const ends = crossEnds(field, frame, pinned);
       if (ends.length > 0) {
-        const lines = lineSegments(ends, pinned ? palette.pinnedCross : palette.cross, pinned ? 1.8 : 1.3);
+        const lines = lineSegments(ends, pinned ? palette.pinnedCross : palette.cross, 1);
         lines.renderOrder = 2;
         this.add(lines);
+        if (lines instanceof LineSegments2) {
+          this.lines.push({ material: lines.material, factor: pinned ? pinnedFactor : 1 });
+        }
       }
     }
     const markers = singularMarkers(field, frame);

@@ -1,5 +1,3 @@
-import { Box3, Vector3 } from 'three';
-
 /**
  * Where the model is in the scene: moved to the origin and scaled to a diagonal of 2, in double precision, so that parts
  * of any size and offset look the same.
@@ -8,8 +6,6 @@ export class Frame {
   private constructor(
     private readonly centre: readonly [number, number, number],
     private readonly scale: number,
-    /** The model's box in the scene. */
-    readonly box: Box3,
   ) {}
 
   static around(positions: Float64Array): Frame {
@@ -21,10 +17,8 @@ export class Frame {
       high[axis] = Math.max(high[axis]!, positions[i]!);
     }
     const half = low.map((l, axis) => (high[axis]! - l) / 2);
-    const scale = 1 / (Math.hypot(...half) || 1);
-    const corner = new Vector3(...(half as [number, number, number])).multiplyScalar(scale);
     const centre = low.map((l, axis) => l + half[axis]!) as [number, number, number];
-    return new Frame(centre, scale, new Box3(corner.clone().negate(), corner));
+    return new Frame(centre, 1 / (Math.hypot(...half) || 1));
   }
 
   /** Positions of the model as positions of the scene. */

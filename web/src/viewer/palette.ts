@@ -36,7 +36,7 @@ export const lightPalette: Palette = {
   boundary: new Color('#0a7f66'),
   nonManifold: new Color('#a3238f'),
   meshEdge: new Color('#1d2b26'),
-  cross: new Color('#3d4d47'),
+  cross: new Color('#4a5b54'),
   pinnedCross: new Color('#07806a'),
   skyLight: new Color('#ffffff'),
   groundLight: new Color('#9fa9a6'),
@@ -52,7 +52,7 @@ export const darkPalette: Palette = {
   nonManifold: new Color('#ff7be9'),
   meshEdge: new Color('#0a100e'),
   cross: new Color('#1f2b27'),
-  pinnedCross: new Color('#006652'),
+  pinnedCross: new Color('#006c56'),
   skyLight: new Color('#ffffff'),
   groundLight: new Color('#59625d'),
 };

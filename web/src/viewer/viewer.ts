@@ -23,6 +23,7 @@ export interface Look {
 }
 
 const fieldOfView = 26;
+const tangent = Math.tan(MathUtils.degToRad(fieldOfView / 2));
 const viewDirection = new Vector3(0.62, -0.9, 0.55).normalize();
 
 /** The three-dimensional view. Draws only when something changed. */
@@ -36,6 +37,8 @@ export class Viewer {
   private readonly meshLayer = new MeshLayer();
   private readonly sky = new HemisphereLight();
   private frame: Frame | undefined;
+  /** Of the part's vertices, in the scene. */
+  private positions = new Float32Array();
   private palette: Palette = lightPalette;
   private free: FreeArea = { left: 0, top: 0, width: 1, height: 1 };
   private shown: { part?: InspectResult; field?: FieldResult; mesh?: MeshResult } = {};
@@ -63,6 +66,7 @@ export class Viewer {
     this.shown.part = part;
     if (isNew || !this.frame) {
       this.frame = Frame.around(part.positions);
+      this.positions = this.frame.place(part.positions);
       delete this.shown.field;
       delete this.shown.mesh;
       this.fieldLayer.clear();
@@ -114,21 +118,22 @@ export class Viewer {
 
   /** Turns and moves the camera so that the whole part is seen. */
   fit(): void {
-    if (!this.frame) {
+    if (this.positions.length === 0) {
       return;
     }
-    const { box } = this.frame;
     const height = this.canvas.clientHeight || 1;
-    // The sphere around the box would waste space on flat and long parts: what counts is the box as it is seen.
     const right = new Vector3().crossVectors(viewDirection, this.camera.up).normalize();
     const up = new Vector3().crossVectors(right, viewDirection);
-    const extent = (axis: Vector3) =>
-      Math.abs(axis.x) * box.max.x + Math.abs(axis.y) * box.max.y + Math.abs(axis.z) * box.max.z;
-    const room = Math.min(this.free.width / extent(right), this.free.height / extent(up)) * 0.46;
-    const depth = extent(viewDirection);
-    const distance = height / (2 * Math.tan(MathUtils.degToRad(fieldOfView / 2)) * room) + 0.5 * depth;
-    this.camera.position.copy(viewDirection).multiplyScalar(distance);
-    this.controls.target.set(0, 0, 0);
+    // What counts is the part as it is seen: a sphere around it would waste space on flat and long parts.
+    const [across, upwards, depth] = [right, up, viewDirection].map((axis) => extent(this.positions, axis));
+    const room = 0.9 * Math.min(this.free.width / across!.length, this.free.height / upwards!.length);
+    const distance = height / (2 * tangent * room) + 0.4 * depth!.length;
+    this.controls.target
+      .copy(right)
+      .multiplyScalar(across!.middle)
+      .addScaledVector(up, upwards!.middle)
+      .addScaledVector(viewDirection, depth!.middle);
+    this.camera.position.copy(this.controls.target).addScaledVector(viewDirection, distance);
     this.controls.minDistance = 0.02;
     this.controls.maxDistance = 6 * distance;
     this.controls.update();
@@ -151,6 +156,8 @@ export class Viewer {
     this.camera.near = Math.max(distance - 1.5, 0.005 * distance);
     this.camera.far = distance + 1.5;
     this.camera.updateProjectionMatrix();
+    const toTarget = this.camera.position.distanceTo(this.controls.target);
+    this.fieldLayer.setZoom(this.canvas.clientHeight / (2 * tangent * toTarget));
     this.renderer.render(this.scene, this.camera);
   }
 
@@ -192,4 +199,15 @@ export class Viewer {
       this.camera.add(light, light.target);
     }
   }
+}
+
+/** The span of the positions along an axis. */
+function extent(positions: Float32Array, axis: Vector3): { length: number; middle: number } {
+  let [low, high] = [Infinity, -Infinity];
+  for (let i = 0; i < positions.length; i += 3) {
+    const along = axis.x * positions[i]! + axis.y * positions[i + 1]! + axis.z * positions[i + 2]!;
+    low = Math.min(low, along);
+    high = Math.max(high, along);
+  }
+  return { length: Math.max(high - low, 1e-3), middle: (low + high) / 2 };
 }
