@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
 #include "qmcf/base/math.hpp"
 #include "turning.hpp"
@@ -34,25 +35,23 @@ void EdgeSamples::lower(std::int32_t edge, double s, double size) {
   on.value[after - 1] = std::min(on.value[after - 1], size);
 }
 
-EdgeSamples sampleEdges(const TriangleMesh& mesh, const Brep& brep, double base, double spacing) {
-  EdgeSamples samples;
+void resample(EdgeSamples& samples, double base, double spacing) {
   samples.base = base;
-  for (const BrepEdge& edge : brep.edges) {
-    EdgeCurve curve = edgeCurve(mesh, edge);
+  samples.sizes.clear();
+  for (const EdgeCurve& curve : samples.curves) {
     EdgeSizes sizes;
     for (std::size_t i = 0; i + 1 < curve.points.size(); ++i) {
       const double from = curve.arcLength[i];
       const double length = curve.arcLength[i + 1] - from;
       const double pieces = std::max(1.0, std::ceil(length / spacing));
-      for (double piece = 0.0; piece < pieces; piece += 1.0)
+      for (double piece = 0.0; piece < pieces; piece += 1.0) {
         sizes.arcLength.push_back(from + length * (piece / pieces));
+      }
     }
     sizes.arcLength.push_back(curve.length());
     sizes.value.assign(sizes.arcLength.size(), base);
-    samples.curves.push_back(std::move(curve));
     samples.sizes.push_back(std::move(sizes));
   }
-  return samples;
 }
 
 std::vector<std::int32_t> limitByTurning(EdgeSamples& samples, std::int32_t divisionsPerTurn, double lowest) {
@@ -80,6 +79,14 @@ void limitByLength(EdgeSamples& samples, double lowest) {
   for (std::size_t e = 0; e < samples.curves.size(); ++e) {
     const double size = std::max(samples.curves[e].length(), lowest);
     for (double& value : samples.sizes[e].value) value = std::min(value, size);
+  }
+}
+
+void limitByGaps(EdgeSamples& samples, const std::vector<Gap>& gaps, double lowest) {
+  for (const Gap& gap : gaps) {
+    // A strip can take elements longer than it is wide: the mean of both lengths keeps count and aspect at bay.
+    const double size = std::max(lowest, std::sqrt(gap.distance * samples.base));
+    for (std::size_t end = 0; end < 2; ++end) samples.lower(gap.edge[end], gap.arcLength[end], size);
   }
 }
 

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "qmcf/sizing/edge_curve.hpp"
@@ -18,8 +20,15 @@ struct EdgeSamples {
   void lower(std::int32_t edge, double s, double size);
 };
 
-/// Samples at each point of every edge and, between points, at most `spacing` apart, all with the size `base`.
-EdgeSamples sampleEdges(const TriangleMesh& mesh, const Brep& brep, double base, double spacing);
+/// Two points on edges that lie opposite each other across a face.
+struct Gap {
+  std::array<std::int32_t, 2> edge{kNone, kNone};
+  std::array<double, 2> arcLength{};
+  double distance = 0.0;
+};
+
+/// Puts samples at each point of every edge and, between points, at most `spacing` apart, all with the size `base`.
+void resample(EdgeSamples& samples, double base, double spacing);
 
 /// Lowers sizes where an edge turns by more than a full turn / divisionsPerTurn within the size.
 /// Returns the least number of divisions per edge.
@@ -28,12 +37,12 @@ std::vector<std::int32_t> limitByTurning(EdgeSamples& samples, std::int32_t divi
 /// Lowers sizes on edges shorter than the size.
 void limitByLength(EdgeSamples& samples, double lowest);
 
-/// Lowers sizes where, straight across a face, another edge (or a far part of the same one) is nearer than the size.
-/// Returns false when progress asked to stop.
-bool limitByProximity(EdgeSamples& samples, const TriangleMesh& mesh, const Brep& brep, double lowest,
-                      Progress& progress);
+/// Where, straight across a face, another edge (or a far part of the same one) is nearer than `reach`; looked for from
+/// places about `spacing` apart. Nothing when progress asked to stop.
+std::optional<std::vector<Gap>> findGaps(const std::vector<EdgeCurve>& curves, const TriangleMesh& mesh,
+                                         const Brep& brep, double reach, double spacing, Progress& progress);
 
-/// Limits the slope of the sizes, along edges and straight across the faces beside them.
-void gradeEdges(EdgeSamples& samples, const Brep& brep, double gradation);
+/// Lowers sizes at both ends of gaps narrower than the size.
+void limitByGaps(EdgeSamples& samples, const std::vector<Gap>& gaps, double lowest);
 
 }  // namespace qmcf

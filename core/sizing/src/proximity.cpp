@@ -72,14 +72,14 @@ struct FaceBoundary {
   std::vector<double> loopLength;
 };
 
-FaceBoundary boundaryOf(const BrepFace& face, const FaceSurface& cut, const EdgeSamples& samples) {
+FaceBoundary boundaryOf(const BrepFace& face, const FaceSurface& cut, const std::vector<EdgeCurve>& curves) {
   FaceBoundary boundary;
   boundary.place.resize(cut.surface.halfedgeCount());
   for (std::size_t l = 0; l < cut.loops.size(); ++l) {
     double sum = 0.0;
     std::size_t next = 0;
     for (const Coedge& coedge : face.loops[l].coedges) {
-      const EdgeCurve& curve = samples.curves[static_cast<std::size_t>(coedge.edge)];
+      const EdgeCurve& curve = curves[static_cast<std::size_t>(coedge.edge)];
       const std::size_t segments = curve.points.size() - 1;
       for (std::size_t i = 0; i < segments && next < cut.loops[l].size(); ++i, ++next) {
         const std::size_t from = coedge.reversed ? segments - i : i;
@@ -108,46 +108,46 @@ bool isAround(const FaceBoundary& boundary, const BoundaryPlace& from, double fr
   return way <= kDetour * hit.distance;
 }
 
-void shootFromHalfedge(EdgeSamples& samples, const Surface& surface, const FaceBoundary& boundary, HalfedgeId h,
-                       double lowest) {
+/// Shoots from the places on the half-edge that are odd multiples of half a step along its edge.
+void shootFromHalfedge(std::vector<Gap>& gaps, const Surface& surface, const FaceBoundary& boundary, HalfedgeId h,
+                       double step, double reach) {
   const BoundaryPlace& place = boundary.place[h];
-  const std::vector<double>& arcs = samples.sizes[static_cast<std::size_t>(place.edge)].arcLength;
   const double first = std::min(place.start, place.end);
   const double last = std::max(place.start, place.end);
-  if (!(last > first)) return;
-  const auto from = std::lower_bound(arcs.begin(), arcs.end(), first);
-  for (auto it = from; it + 1 != arcs.end() && *it < last; ++it) {
-    const double s = 0.5 * (*it + *(it + 1));
+  for (double k = std::ceil(first / step - 0.5); (k + 0.5) * step < last; k += 1.0) {
+    const double s = (k + 0.5) * step;
     const double fraction = std::clamp((s - place.start) / (place.end - place.start), 0.0, 1.0);
-    const std::optional<Hit> hit = shootAcross(surface, {h, fraction}, samples.base);
+    const std::optional<Hit> hit = shootAcross(surface, {h, fraction}, reach);
     if (!hit) continue;
     const BoundaryPlace& other = boundary.place[hit->point.halfedge];
     if (other.edge == kNone || isAround(boundary, place, fraction, other, *hit)) continue;
-    // A strip can take elements longer than it is wide: the mean of both lengths keeps count and aspect at bay.
-    const double size = std::max(lowest, std::sqrt(hit->distance * samples.base));
-    samples.lower(place.edge, s, size);
-    samples.lower(other.edge, along(other, hit->point.fraction), size);
+    gaps.push_back({{place.edge, other.edge}, {s, along(other, hit->point.fraction)}, hit->distance});
   }
 }
 
 }  // namespace
 
-bool limitByProximity(EdgeSamples& samples, const TriangleMesh& mesh, const Brep& brep, double lowest,
-                      Progress& progress) {
+std::optional<std::vector<Gap>> findGaps(const std::vector<EdgeCurve>& curves, const TriangleMesh& mesh,
+                                         const Brep& brep, double reach, double spacing, Progress& progress) {
+  std::vector<Gap> gaps;
   for (std::size_t f = 0; f < brep.faces.size(); ++f) {
     const double done = static_cast<double>(f) / static_cast<double>(brep.faces.size());
-    if (!progress.report(Stage::sizing, 0.2 + 0.5 * done)) return false;
+    if (!progress.report(Stage::sizing, 0.1 + 0.5 * done)) return std::nullopt;
     const BrepFace& face = brep.faces[f];
     if (face.loops.empty()) continue;
     const FaceSurface cut = faceSurface(mesh, brep, static_cast<std::int32_t>(f));
-    const FaceBoundary boundary = boundaryOf(face, cut, samples);
+    const FaceBoundary boundary = boundaryOf(face, cut, curves);
     for (const auto& loop : cut.loops) {
       for (const HalfedgeId h : loop) {
-        if (boundary.place[h].edge != kNone) shootFromHalfedge(samples, cut.surface, boundary, h, lowest);
+        const std::int32_t edge = boundary.place[h].edge;
+        if (edge == kNone) continue;
+        const double length = curves[static_cast<std::size_t>(edge)].length();
+        if (!(length > 0.0)) continue;
+        shootFromHalfedge(gaps, cut.surface, boundary, h, length / std::ceil(length / spacing), reach);
       }
     }
   }
-  return true;
+  return gaps;
 }
 
 }  // namespace qmcf

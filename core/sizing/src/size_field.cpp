@@ -7,7 +7,9 @@
 #include <utility>
 
 #include "edge_samples.hpp"
+#include "qmcf/base/math.hpp"
 #include "qmcf/sizing/min_heap.hpp"
+#include "sample_graph.hpp"
 
 namespace qmcf {
 namespace {
@@ -17,6 +19,10 @@ constexpr double kLowestByTurning = 0.1;
 constexpr double kLowestByProximity = 0.25;
 constexpr double kLowestByLength = 0.3;
 constexpr double kSampleSpacing = 0.5;
+// The base size that makes the number of quads come out right is found by trying.
+constexpr int kAttempts = 6;
+constexpr double kCountTolerance = 0.02;
+constexpr double kReachByCount = 3.0;
 constexpr std::int64_t kDefaultQuads = 3000;
 constexpr std::int64_t kMostQuads = 10'000'000;
 
@@ -38,6 +44,28 @@ Result<double> baseSize(const Brep& brep, const SizingOptions& options) {
   if (quads < 1 || quads > kMostQuads) return invalid("The number of quads must be between 1 and 10,000,000.");
   return std::sqrt(area / static_cast<double>(quads));
 }
+
+/// Finds the base size for a count by secants: the count falls like a power of the size, with an exponent near 2 where
+/// the size rules and a smaller one where curvature and gaps do.
+class CountSearch {
+ public:
+  /// The size to try next, given that `size` led to `ratio` times the wanted count.
+  double next(double size, double ratio) {
+    const double x = math::log(size);
+    const double y = math::log(ratio);
+    if (tried_ && x != x_) exponent_ = std::clamp((y_ - y) / (x - x_), 0.4, 2.5);
+    tried_ = true;
+    x_ = x;
+    y_ = y;
+    return math::exp(x + y / exponent_);
+  }
+
+ private:
+  double exponent_ = 2.0;
+  bool tried_ = false;
+  double x_ = 0.0;
+  double y_ = 0.0;
+};
 
 /// Neighbours along the edges of the triangles, as one flat table.
 struct Adjacency {
@@ -108,16 +136,33 @@ Result<SizeField> computeSizeField(const TriangleMesh& mesh, const Brep& brep, c
   if (!base.ok()) return base.error();
   if (!progress.report(Stage::sizing, 0.0)) return cancelledError();
 
+  const bool byCount = !options.size;
+  EdgeSamples samples;
+  for (const BrepEdge& edge : brep.edges) samples.curves.push_back(edgeCurve(mesh, edge));
+  // Room for a base that grows until the count fits.
+  const double reach = byCount ? kReachByCount * base.value() : base.value();
+  const auto gaps = findGaps(samples.curves, mesh, brep, reach, kSampleSpacing * base.value(), progress);
+  if (!gaps) return cancelledError();
+
   SizeField field;
   field.base = base.value();
   field.gradation = options.gradation;
-  EdgeSamples samples = sampleEdges(mesh, brep, field.base, kSampleSpacing * field.base);
-  field.minimumDivisions = limitByTurning(samples, options.divisionsPerTurn, kLowestByTurning * field.base);
-  limitByLength(samples, kLowestByLength * field.base);
-  if (!progress.report(Stage::sizing, 0.2)) return cancelledError();
-  if (!limitByProximity(samples, mesh, brep, kLowestByProximity * field.base, progress)) return cancelledError();
-  gradeEdges(samples, brep, options.gradation);
-  if (!progress.report(Stage::sizing, 0.8)) return cancelledError();
+  CountSearch search;
+  const auto wanted = static_cast<double>(options.quads.value_or(kDefaultQuads));
+  for (int attempt = 0; attempt < kAttempts; ++attempt) {
+    if (!progress.report(Stage::sizing, 0.6 + 0.05 * attempt)) return cancelledError();
+    resample(samples, field.base, kSampleSpacing * field.base);
+    field.minimumDivisions = limitByTurning(samples, options.divisionsPerTurn, kLowestByTurning * field.base);
+    limitByLength(samples, kLowestByLength * field.base);
+    limitByGaps(samples, *gaps, kLowestByProximity * field.base);
+    SampleGraph graph(samples, brep);
+    graph.grade(options.gradation);
+    graph.store(samples);
+    if (!byCount || attempt + 1 == kAttempts) break;
+    const double ratio = graph.count(mesh, brep, options.gradation) / wanted;
+    if (std::fabs(ratio - 1.0) < kCountTolerance) break;
+    field.base = std::clamp(search.next(field.base, ratio), base.value(), reach);
+  }
   field.value = vertexSizes(mesh, brep, samples, options.gradation);
   field.edges = std::move(samples.sizes);
   return field;

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "edge_samples.hpp"
+
+namespace qmcf {
+
+/// All samples of all edges as a graph; the samples at a B-rep vertex are one node.
+class SampleGraph {
+ public:
+  SampleGraph(const EdgeSamples& samples, const Brep& brep);
+
+  /// Limits the slope of the sizes, along edges and straight across the faces beside them.
+  void grade(double gradation);
+  /// About how many quads of these sizes the surface takes. \pre grade() was called.
+  [[nodiscard]] double count(const TriangleMesh& mesh, const Brep& brep, double gradation) const;
+  /// Copies the sizes to the samples that the graph was made of.
+  void store(EdgeSamples& samples) const;
+
+ private:
+  [[nodiscard]] double countOnFace(const TriangleMesh& mesh, const BrepFace& face,
+                                   const std::vector<std::int32_t>& sources, double gradation) const;
+  /// How far from a node its cone meets the base size, at most.
+  [[nodiscard]] double farthest(double gradation) const;
+
+  double base_;
+  std::vector<Vec3> position_;
+  std::vector<double> size_;
+  std::vector<std::vector<std::int32_t>> ofEdge_;                        ///< Per edge, per sample: its node.
+  std::vector<std::vector<std::pair<std::int32_t, double>>> neighbors_;  ///< Per node, along edges: node and length.
+  std::vector<std::vector<std::int32_t>> faces_;                         ///< Per node: the faces beside it.
+  std::vector<std::vector<std::int32_t>> ofFace_;                        ///< Per face: its nodes, ascending.
+};
+
+}  // namespace qmcf
