@@ -35,9 +35,10 @@ const panel = el(
 makeSheet(panel);
 const fit = button(icons.fit(), { class: 'fit', 'aria-label': 'Fit the view', title: 'Fit the view' }, () => viewer.fit());
 const views = viewBar(store, session);
+const pickFile = () => panel.querySelector<HTMLInputElement>('input[type=file]')!.click();
 const app = document.querySelector('#app')!;
 const display = displayCard(store, session);
-app.append(canvas, panel, views, display, fit, gallery(store, session), dropZone(session));
+app.append(canvas, panel, views, display, fit, gallery(store, session, pickFile), dropZone(session));
 
 const viewer = new Viewer(canvas);
 

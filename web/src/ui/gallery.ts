@@ -3,10 +3,9 @@ import { samples, type Sample } from '../samples.js';
 import type { Session } from '../session.js';
 import type { Store } from '../state.js';
 import { icons, mark } from './icons.js';
-import { openControl } from './model_section.js';
 
-/** The first thing that is seen: drop a part, open one, or take a sample. */
-export function gallery(store: Store, session: Session): HTMLElement {
+/** The first thing that is seen: drop a part, open one with the panel's file picker, or take a sample. */
+export function gallery(store: Store, session: Session, pickFile: () => void): HTMLElement {
   const close = button(icons.close(), { class: 'quiet icon close', 'aria-label': 'Close samples' }, () => store.update({ galleryOpen: false }));
   const welcome = el(
     'div',
@@ -25,7 +24,7 @@ export function gallery(store: Store, session: Session): HTMLElement {
     { class: 'gallery', role: 'region', 'aria-label': 'Samples' },
     close,
     welcome,
-    el('div', { class: 'row centre first-only' }, openControl(session)),
+    el('div', { class: 'row centre first-only' }, button('Choose a file', { class: 'primary' }, pickFile)),
     el('h2', { class: 'divider' }, 'or take one of ours'),
     list,
   );
