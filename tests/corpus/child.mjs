@@ -7,6 +7,7 @@ const TIME_TOOL = '/usr/bin/time';
 const TIME_FORMAT = 'QMCF_COST %U %S %M';
 const TICKS_PER_SECOND = 100; // of /proc/PID/stat, on every Linux
 const POLL_MILLISECONDS = 20;
+const WALL_PER_CPU = 10; // a shared machine may be slow; a program that waits for ever has to end all the same
 
 /** Process groups that would outlive this program when it is interrupted. */
 const running = new Set();
@@ -23,12 +24,14 @@ process.on('exit', () => running.forEach(endGroup));
 for (const signal of ['SIGINT', 'SIGTERM']) process.on(signal, () => process.exit(130));
 
 /**
- * Resolves to { exit, signal, timedOut, stdout, stderr, seconds, cpuSeconds, peakMegabytes }.
+ * Runs it with at most so many seconds of CPU time, and ten times that by the clock. Resolves to
+ * { exit, signal, timedOut, stdout, stderr, seconds, cpuSeconds, peakMegabytes }.
  * CPU and memory come from the time program, where there is one, else from looking at /proc now and then.
  */
-export function runMeasured(program, args, timeoutSeconds) {
+export function runMeasured(program, args, cpuLimit) {
   const timed = existsSync(TIME_TOOL);
-  const command = timed ? [TIME_TOOL, '-q', '-f', TIME_FORMAT, program, ...args] : [program, ...args];
+  const limited = ['/bin/sh', '-c', 'ulimit -t "$0"; exec "$@"', String(Math.ceil(cpuLimit)), program, ...args];
+  const command = timed ? [TIME_TOOL, '-q', '-f', TIME_FORMAT, ...limited] : limited;
   return new Promise((resolve) => {
     const started = process.hrtime.bigint();
     // A group of its own, so that the time program and what it runs end together.
@@ -41,7 +44,7 @@ export function runMeasured(program, args, timeoutSeconds) {
     const timer = setTimeout(() => {
       result.timedOut = true;
       endGroup(child.pid);
-    }, timeoutSeconds * 1000);
+    }, WALL_PER_CPU * cpuLimit * 1000);
     const finish = (exit, signal) => {
       running.delete(child.pid);
       clearTimeout(timer);
@@ -51,6 +54,7 @@ export function runMeasured(program, args, timeoutSeconds) {
       // The time program reports a signal of its child as 128 + its number.
       result.exit = exit;
       result.signal = signal ?? (timed && exit > 128 ? exit - 128 : null);
+      if (result.signal && result.cpuSeconds >= 0.95 * cpuLimit) result.timedOut = true;
       resolve(result);
     };
     child.on('error', (error) => {

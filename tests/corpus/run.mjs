@@ -14,7 +14,7 @@ const USAGE = `usage: tests/corpus/run [FOLDER or FILE ...] [options] [-- option
   FOLDER, FILE     models (.obj, .stl, .ply); default: ../shared/models if it exists, else samples
   --quads N        elements to aim at (3000)
   --jobs N         models at a time (2)
-  --timeout S      seconds per model (120)
+  --timeout S      seconds of CPU time per model (120), and ten times that by the clock
   --only REGEX     models whose name matches
   --qmcf PATH      the program (build/native/bin/qmcf)
   --judge PATH     the judge; default: QMCF_JUDGE or ../shared/judge/judge.mjs if it exists; none: qmcf check
@@ -85,7 +85,7 @@ async function measureModel(part, options) {
   const run = await runMeasured(options.qmcf, args, options.timeout);
   const { seconds, cpuSeconds, peakMegabytes } = run;
   const result = { model, seconds, cpuSeconds, peakMegabytes, exit: run.exit };
-  if (run.timedOut) return { ...result, verdict: 'TIMEOUT', message: `after ${options.timeout} s` };
+  if (run.timedOut) return { ...result, verdict: 'TIMEOUT', message: `after ${(cpuSeconds ?? seconds).toFixed(0)} s` };
   if (run.signal) return { ...result, verdict: 'CRASH', message: `signal ${run.signal}` };
   if (run.exit !== 0) {
     return { ...result, verdict: VERDICT_OF_EXIT[run.exit] ?? 'FAILED', message: `exit ${run.exit}: ${run.stderr.trim().split('\n').pop()}` };
