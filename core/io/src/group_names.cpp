@@ -45,7 +45,7 @@ std::vector<std::string> uniqueNames(const std::vector<std::string>& wanted, std
   std::vector<std::string> names;
   names.reserve(count);
   for (std::size_t i = 0; i < count; ++i) {
-    const std::string number = std::to_string(i + 1);
+    const std::string number = std::to_string(i);  // The id that reports use.
     std::string name = i < wanted.size() ? sanitized(wanted[i], rule) : std::string();
     if (name.empty()) name = prefix + number;
     // The own number makes a repeated name different from all others but one that was made to look like it.

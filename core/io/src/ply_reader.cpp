@@ -138,6 +138,7 @@ class PlyReader {
   Progress& progress_;
   PolygonSoup soup_;
   std::map<double, std::int32_t> labelIds_;
+  std::map<std::int32_t, std::int32_t> chainIds_;  ///< Numbers of edges in the file, in the order of their first use.
   Error error_;
 };
 
@@ -267,6 +268,7 @@ bool PlyReader::addEdge(const Row& row, const PlyElement& element) {
     if (!(value >= 0.0 && value < static_cast<double>(kMaxIndex))) return true;
     segment[i] = static_cast<std::int32_t>(value);
   }
+  segment[2] = chainIds_.try_emplace(segment[2], static_cast<std::int32_t>(chainIds_.size())).first->second;
   soup_.segments.push_back(segment);
   return true;
 }

@@ -69,13 +69,13 @@ TEST(Write, ObjAndPlyReadBackAsTheSameMesh) {
 TEST(Write, GroupNamesAreValidAndDifferent) {
   const std::string obj = writeMesh(example(), OutputFormat::obj, kNames);
   EXPECT_EQ(countLines(obj, "g "), 4U);
-  EXPECT_TRUE(contains(obj, "g top_side\nf 1 2 3 4\ng top_side_2\nf 2 5 6 3\n")) << obj;
-  EXPECT_TRUE(contains(obj, "g rim__A_\nl 1 2\nl 2 5\ng edge_2\nl 2 3\n")) << obj;
-  EXPECT_TRUE(contains(writeMesh(example(), OutputFormat::obj), "g face_1\n"));
+  EXPECT_TRUE(contains(obj, "g top_side\nf 1 2 3 4\ng top_side_1\nf 2 5 6 3\n")) << obj;
+  EXPECT_TRUE(contains(obj, "g rim__A_\nl 1 2\nl 2 5\ng edge_1\nl 2 3\n")) << obj;
+  EXPECT_TRUE(contains(writeMesh(example(), OutputFormat::obj), "g face_0\n"));
   // Names in solver input ignore case, and must begin with a letter.
   const std::string inp = writeMesh(example(), OutputFormat::inp, {{"Skin", "skin"}, {"1\xc3\xa4", ""}});
   EXPECT_TRUE(contains(inp, "ELSET=Skin\n"));
-  EXPECT_TRUE(contains(inp, "ELSET=skin_2\n"));
+  EXPECT_TRUE(contains(inp, "ELSET=skin_1\n"));
   EXPECT_TRUE(contains(inp, "NSET=n_1__\n")) << inp;
 }
 
@@ -90,9 +90,9 @@ TEST(Write, StlHoldsTwoTrianglesPerQuadrilateral) {
 TEST(Write, InpHasEveryNodeElementAndSet) {
   const std::string inp = writeMesh(example(), OutputFormat::inp, kNames);
   EXPECT_TRUE(contains(inp, "*ELEMENT, TYPE=S4, ELSET=top_side\n1, 1, 2, 3, 4\n")) << inp;
-  EXPECT_TRUE(contains(inp, "*ELEMENT, TYPE=S4, ELSET=top_side_2\n2, 2, 5, 6, 3\n"));
-  EXPECT_TRUE(contains(inp, "*ELEMENT, TYPE=S3, ELSET=top_side_2\n3, 5, 6, 4\n"));
-  EXPECT_TRUE(contains(inp, "*NSET, NSET=edge_2\n2, 3\n"));
+  EXPECT_TRUE(contains(inp, "*ELEMENT, TYPE=S4, ELSET=top_side_1\n2, 2, 5, 6, 3\n"));
+  EXPECT_TRUE(contains(inp, "*ELEMENT, TYPE=S3, ELSET=top_side_1\n3, 5, 6, 4\n"));
+  EXPECT_TRUE(contains(inp, "*NSET, NSET=edge_1\n2, 3\n"));
   // Abaqus and CalculiX read 20 characters of a number.
   EXPECT_TRUE(contains(inp, "\n2, 0.3333333333333333, 0., 0.\n"));
   EXPECT_TRUE(contains(inp, "\n6, 2., 1., -1.23456789012346E-4\n")) << inp;
@@ -154,8 +154,8 @@ std::vector<std::string> section(const std::string& msh, const std::string& name
 
 TEST(Write, MshCountsAgreeWithItsBlocks) {
   const std::string msh = writeMesh(example(), OutputFormat::msh, kNames);
-  EXPECT_EQ(section(msh, "PhysicalNames"), (std::vector<std::string>{"4", "1 1 \"rim _A_\"", "1 2 \"edge_2\"",
-                                                                     "2 1 \"top side\"", "2 2 \"top side_2\""}));
+  EXPECT_EQ(section(msh, "PhysicalNames"), (std::vector<std::string>{"4", "1 1 \"rim _A_\"", "1 2 \"edge_1\"",
+                                                                     "2 1 \"top side\"", "2 2 \"top side_1\""}));
   // Points: the ends of both edges, of which one meets the other in its middle.
   const std::vector<std::string> entities = section(msh, "Entities");
   ASSERT_EQ(entities.size(), 9U);

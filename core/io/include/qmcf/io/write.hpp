@@ -18,8 +18,10 @@ enum class OutputFormat : std::uint8_t { obj, vtu, ply, stl, msh, inp, bdf };
 std::optional<OutputFormat> outputFormatOf(std::string_view fileName);
 
 struct WriteOptions {
-  std::vector<std::string> faceNames;  ///< Per face of the B-rep: group name; empty or missing: "face_N".
-  std::vector<std::string> edgeNames;  ///< Per edge of the B-rep: group name; empty or missing: "edge_N".
+  std::vector<std::string>
+      faceNames;  ///< Per face of the B-rep: group name; empty or missing: "face_N", N being its id.
+  std::vector<std::string>
+      edgeNames;  ///< Per edge of the B-rep: group name; empty or missing: "edge_N", N being its id.
 };
 
 /// The file's content, bytes. Coordinates of all formats but STL are written so that reading them gives the same
