@@ -17,6 +17,7 @@ namespace {
 
 constexpr int kSmoothingSweeps = 3;
 constexpr int kExtraRounds = 6;
+constexpr double kCoarsest = 8.0;  // In units of the target length.
 
 std::size_t index(std::int32_t i) { return static_cast<std::size_t>(i); }
 
@@ -42,6 +43,16 @@ bool remesh(Remesher& remesher, const RemeshMesh& mesh, const BackgroundOptions&
   remesher.removePoints();
   coarsen(remesher, mesh);
   remesher.flipEdges();
+  // Long needles are cut in few pieces first: collapses and flips between make most of the others unnecessary.
+  for (double scale = kCoarsest; scale > 1.0; scale *= 0.5) {
+    if (!progress.report(Stage::background, 0.0)) return false;
+    if (remesher.splitLong(scale) == 0) continue;
+    remesher.flipEdges();
+    remesher.smooth(1);
+    remesher.updateSizes();
+    remesher.removePoints();
+    remesher.collapseShort();
+  }
   const int rounds = options.iterations + kExtraRounds;
   for (int round = 0; round < rounds; ++round) {
     if (!progress.report(Stage::background, static_cast<double>(round) / rounds)) return false;
@@ -49,7 +60,7 @@ bool remesh(Remesher& remesher, const RemeshMesh& mesh, const BackgroundOptions&
     const std::int32_t left = remesher.removePoints();
     if (round >= options.iterations && left == 0) break;
     remesher.collapseShort();
-    remesher.splitLong();
+    remesher.splitLong(1.0);
     remesher.flipEdges();
     remesher.smooth(kSmoothingSweeps);
   }
@@ -124,7 +135,8 @@ double largestDistance(const RemeshMesh& mesh, const FaceReference& reference) {
   for (std::int32_t v = 0; v < mesh.vertexCount(); ++v) {
     if (mesh.isVertexRemoved(v)) continue;
     const Vec3& p = mesh.positionOf(v);
-    largest = std::max(largest, distance(p, reference.project(p, mesh.normal[index(v)]).position));
+    largest =
+        std::max(largest, distance(p, reference.project(p, mesh.normal[index(v)], mesh.triangle[index(v)]).position));
   }
   return largest;
 }

@@ -28,6 +28,7 @@ void copySurface(RemeshMesh& mesh, const Surface& surface, const FaceReference& 
   }
   mesh.build(triangles, twins);
   for (const VertexId v : surface.vertices()) {
+    mesh.triangle[v.index()] = Surface::triangle(surface.outgoing(v)).value;
     if (mesh.onBoundary(v.value)) mesh.role[v.index()] = VertexRole::point;
   }
 }

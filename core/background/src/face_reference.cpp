@@ -56,10 +56,10 @@ void FaceReference::findPlane(const Surface& surface) {
   planar_ = deviation <= kTolerance * extent && norm(sum) >= (1.0 - 1e-9) * area && area > 0.0;
 }
 
-FaceReference::Foot FaceReference::project(const Vec3& p, const Vec3& normal) const {
+FaceReference::Foot FaceReference::project(const Vec3& p, const Vec3& normal, std::int32_t hint) const {
   constexpr double kMinCosine = 0.5;
   if (planar_) return {p - planeNormal_ * dot(p - planeOrigin_, planeNormal_), planeNormal_, -1};
-  const ClosestPoint closest = bvh_.closest(p, normal, kMinCosine);
+  const ClosestPoint closest = bvh_.closest(p, normal, kMinCosine, hint);
   const auto& corners = triangles_[static_cast<std::size_t>(closest.triangle)];
   Vec3 sum;
   for (std::size_t c = 0; c < 3; ++c) sum += vertexNormal(corners[c]) * closest.barycentric[c];

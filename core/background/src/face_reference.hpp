@@ -20,8 +20,8 @@ class FaceReference {
 
   explicit FaceReference(const Surface& surface);
 
-  /// The closest point of the face among triangles that look roughly along `normal`.
-  [[nodiscard]] Foot project(const Vec3& p, const Vec3& normal) const;
+  /// The closest point of the face among triangles that look roughly along `normal`. hint: a triangle near it, or -1.
+  [[nodiscard]] Foot project(const Vec3& p, const Vec3& normal, std::int32_t hint = -1) const;
   /// Unit normal at a vertex of the face's surface: the angle-weighted mean of its triangles.
   [[nodiscard]] const Vec3& vertexNormal(std::int32_t v) const { return vertexNormals_[static_cast<std::size_t>(v)]; }
   /// Whether all triangles lie in one plane and look the same way.

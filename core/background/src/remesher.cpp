@@ -21,17 +21,31 @@ constexpr double kLengthSlope = 0.4;
 // A new triangle keeps within this angle's cosine of the smooth surface's normal.
 constexpr double kMinCosine = 0.3;
 // Below this, triangles may not get worse.
-constexpr double kPoorQuality = 0.1;
+constexpr double kPoorQuality = 0.01;
 // No new triangle may be as bad as this: its normal would mean nothing.
-constexpr double kDegenerate = 1e-5;
+constexpr double kDegenerate = 1e-10;
 
 std::size_t index(std::int32_t i) { return static_cast<std::size_t>(i); }
 
-/// 1 for an equilateral triangle, 0 for one without area.
-double shapeQuality(const Vec3& a, const Vec3& b, const Vec3& c) {
-  constexpr double kEquilateral = 3.4641016151377544;  // 2 sqrt(3)
-  const double sum = squaredNorm(b - a) + squaredNorm(c - b) + squaredNorm(a - c);
-  return sum > 0.0 ? kEquilateral * norm(cross(b - a, c - a)) / sum : 0.0;
+/// What decides whether a triangle is acceptable.
+struct Shape {
+  Vec3 area;             ///< Twice the area vector.
+  double quality = 0.0;  ///< 1 for an equilateral triangle, 0 for one without area: the square of 4 sqrt(3) area / sum
+                         ///< of squared sides.
+};
+
+Shape shapeOf(const Vec3& a, const Vec3& b, const Vec3& c) {
+  const Vec3 ab = b - a;
+  const Vec3 ac = c - a;
+  const Vec3 area = cross(ab, ac);
+  const double sum = squaredNorm(ab) + squaredNorm(ac) + squaredNorm(c - b);
+  return {area, sum > 0.0 ? 12.0 * squaredNorm(area) / (sum * sum) : 0.0};
+}
+
+/// Whether a triangle keeps within the allowed angle of a normal of any length.
+bool looksAlong(const Vec3& area, const Vec3& normal) {
+  const double along = dot(area, normal);
+  return along > 0.0 && along * along > kMinCosine * kMinCosine * squaredNorm(area) * squaredNorm(normal);
 }
 
 void grade(const RemeshMesh& mesh, std::vector<double>& value, double highest, double slope) {
@@ -75,12 +89,7 @@ double Remesher::edgeLength(std::int32_t a, std::int32_t b) const {
 }
 
 double Remesher::quality(std::int32_t a, std::int32_t b, std::int32_t c) const {
-  return shapeQuality(mesh_.positionOf(a), mesh_.positionOf(b), mesh_.positionOf(c));
-}
-
-bool Remesher::looksOutward(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& normal) const {
-  const Vec3 area = cross(b - a, c - a);
-  return dot(area, normal) > kMinCosine * norm(area) * norm(normal);
+  return shapeOf(mesh_.positionOf(a), mesh_.positionOf(b), mesh_.positionOf(c)).quality;
 }
 
 bool Remesher::joinsBoundary(std::int32_t a, std::int32_t b) const {
@@ -100,8 +109,9 @@ bool Remesher::keepsShape(std::int32_t removed, std::int32_t kept, double longes
     if (b == kept || c == kept) return;
     const Vec3& p = mesh_.positionOf(kept);
     const Vec3 normal = mesh_.normal[index(kept)] + mesh_.normal[index(b)] + mesh_.normal[index(c)];
-    good = looksOutward(p, mesh_.positionOf(b), mesh_.positionOf(c), normal);
-    worstAfter = std::min(worstAfter, quality(kept, b, c));
+    const Shape after = shapeOf(p, mesh_.positionOf(b), mesh_.positionOf(c));
+    good = looksAlong(after.area, normal);
+    worstAfter = std::min(worstAfter, after.quality);
   });
   if (!good || worstAfter < std::max(kDegenerate, std::min(kPoorQuality, worstBefore))) return false;
   mesh_.forEachNeighbor(removed, [&](std::int32_t v) {
@@ -160,16 +170,16 @@ std::int32_t Remesher::collapseShort() {
   return collapsed;
 }
 
-bool Remesher::isTooLong(std::int32_t h) const {
+bool Remesher::isTooLong(std::int32_t h, double scale) const {
   const std::int32_t a = mesh_.origin(h);
   const std::int32_t b = mesh_.target(h);
-  return mesh_.length(h) > (joinsBoundary(a, b) ? kNarrow : kLongest) * edgeLength(a, b) && isLongInSliver(h) &&
+  return mesh_.length(h) > scale * (joinsBoundary(a, b) ? kNarrow : kLongest) * edgeLength(a, b) && isLongInSliver(h) &&
          isLongInSliver(mesh_.twin(h));
 }
 
 /// Whether splitting the edge does not cut the triangle of h into more slivers: false for a short side of a sliver.
 bool Remesher::isLongInSliver(std::int32_t h) const {
-  constexpr double kSliver = 0.1;
+  constexpr double kSliver = 0.01;
   const double length = mesh_.length(h);
   return (length >= mesh_.length(RemeshMesh::next(h)) && length >= mesh_.length(RemeshMesh::prev(h))) ||
          quality(mesh_.origin(h), mesh_.target(h), mesh_.apex(h)) > kSliver;
@@ -187,7 +197,8 @@ void Remesher::splitEdge(std::int32_t h) {
   mesh_.normal[index(m)] = normal;
   size_.push_back(0.5 * (size_[index(a)] + size_[index(b)]));
   length_.push_back(0.5 * (length_[index(a)] + length_[index(b)]));
-  const FaceReference::Foot foot = reference_.project(middle, normal);
+  const FaceReference::Foot foot =
+      reference_.project(middle, normal, std::max(mesh_.triangle[index(a)], mesh_.triangle[index(b)]));
   mesh_.normal[index(m)] = foot.normal;
   mesh_.triangle[index(m)] = foot.triangle;
   // New edges must not call for more splits than those at the middle would: else splitting might never end.
@@ -200,62 +211,68 @@ void Remesher::splitEdge(std::int32_t h) {
   for (std::size_t i = 0; i < 4; ++i) {
     const Vec3& p = mesh_.positionOf(ring[i]);
     const Vec3& q = mesh_.positionOf(ring[(i + 1) % 4]);
-    if (!looksOutward(foot.position, p, q, foot.normal)) return;
+    if (!looksAlong(shapeOf(foot.position, p, q).area, foot.normal)) return;
   }
   mesh_.position[index(m)] = foot.position;
 }
 
-void Remesher::splitLong() {
+std::int32_t Remesher::splitLong(double scale) {
+  std::int32_t count = 0;
   // Longest first: the new edge in a triangle whose longest edge is halved is shorter than that one. In any other order
   // slivers multiply without bound.
   MinHeap heap;
   const auto pushIfLong = [&](std::int32_t h) {
     if (mesh_.twin(h) == kNone) return;
     const std::int32_t canonical = std::min(h, mesh_.twin(h));
-    if (isTooLong(canonical)) heap.push(-mesh_.length(canonical), canonical);
+    if (isTooLong(canonical, scale)) heap.push(-mesh_.length(canonical), canonical);
   };
   for (std::int32_t h = 0; h < mesh_.halfedgeCount(); ++h) {
     if (!mesh_.isRemoved(h) && h < mesh_.twin(h)) pushIfLong(h);
   }
   while (!heap.empty()) {
     const auto [key, h] = heap.pop();
-    if (key != -mesh_.length(h) || !isTooLong(h)) continue;
+    if (key != -mesh_.length(h) || !isTooLong(h, scale)) continue;
     splitEdge(h);
+    ++count;
     // The edges around the new vertex may have got new ids.
     mesh_.forEachOutgoing(mesh_.target(h), [&](std::int32_t out) {
       pushIfLong(out);
       pushIfLong(RemeshMesh::next(out));
     });
   }
+  return count;
 }
 
 bool Remesher::wantsFlip(std::int32_t h) const {
   constexpr double kFlat = 0.9995;
   constexpr double kGain = 1e-6;
-  constexpr double kGoodEnough = 0.35;
+  constexpr double kGoodEnough = 0.12;
   const std::int32_t a = mesh_.origin(h);
   const std::int32_t b = mesh_.target(h);
   const std::int32_t c = mesh_.apex(h);
   const std::int32_t d = mesh_.apex(mesh_.twin(h));
-  const double before = std::min(quality(a, b, c), quality(b, a, d));
-  const double after = std::min(quality(d, c, a), quality(c, d, b));
-  const bool leavesBoundary = joinsBoundary(a, b) && !joinsBoundary(c, d);
-  const double acrossLength = distance(mesh_.positionOf(c), mesh_.positionOf(d));
-  const bool entersBoundary = joinsBoundary(c, d) && !joinsBoundary(a, b) && acrossLength > kNarrow * edgeLength(c, d);
-  if (entersBoundary) return false;
-  if (after < kDegenerate) return false;
-  if (!(after > before + kGain) && !(leavesBoundary && after > kGoodEnough)) return false;
   const Vec3& pa = mesh_.positionOf(a);
   const Vec3& pb = mesh_.positionOf(b);
   const Vec3& pc = mesh_.positionOf(c);
   const Vec3& pd = mesh_.positionOf(d);
+  const Shape left = shapeOf(pa, pb, pc);
+  const Shape right = shapeOf(pb, pa, pd);
+  const Shape newA = shapeOf(pd, pc, pa);
+  const Shape newB = shapeOf(pc, pd, pb);
+  const double before = std::min(left.quality, right.quality);
+  const double after = std::min(newA.quality, newB.quality);
+  const bool leavesBoundary = joinsBoundary(a, b) && !joinsBoundary(c, d);
+  if (after < kDegenerate) return false;
+  if (!(after > before + kGain) && !(leavesBoundary && after > kGoodEnough)) return false;
+  const double across = distance(pc, pd);
+  if (joinsBoundary(c, d) && !joinsBoundary(a, b) && across > kNarrow * edgeLength(c, d)) return false;
   const Vec3 around = mesh_.normal[index(c)] + mesh_.normal[index(d)];
-  if (!looksOutward(pd, pc, pa, around + mesh_.normal[index(a)])) return false;
-  if (!looksOutward(pc, pd, pb, around + mesh_.normal[index(b)])) return false;
+  if (!looksAlong(newA.area, around + mesh_.normal[index(a)])) return false;
+  if (!looksAlong(newB.area, around + mesh_.normal[index(b)])) return false;
   // Across a fold of two facets much larger than the target, a flip would cut a corner off.
   const double large = 2.5 * edgeLength(a, b);
-  if (mesh_.length(h) < large && acrossLength < large) return true;
-  return dot(normalized(cross(pb - pa, pc - pa)), normalized(cross(pa - pb, pd - pb))) > kFlat;
+  if (mesh_.length(h) < large && across < large) return true;
+  return dot(normalized(left.area), normalized(right.area)) > kFlat;
 }
 
 void Remesher::flipEdges() {
@@ -272,18 +289,21 @@ void Remesher::flipEdges() {
 }
 
 bool Remesher::tryMove(std::int32_t v, const Vec3& to, const Vec3& normal) {
-  double worstBefore = 1.0;
   double worstAfter = 1.0;
   bool good = true;
   mesh_.forEachOutgoing(v, [&](std::int32_t h) {
     if (!good) return;
-    const Vec3& b = mesh_.positionOf(mesh_.target(h));
-    const Vec3& c = mesh_.positionOf(mesh_.apex(h));
-    worstBefore = std::min(worstBefore, shapeQuality(mesh_.positionOf(v), b, c));
-    worstAfter = std::min(worstAfter, shapeQuality(to, b, c));
-    good = looksOutward(to, b, c, normal);
+    const Shape after = shapeOf(to, mesh_.positionOf(mesh_.target(h)), mesh_.positionOf(mesh_.apex(h)));
+    good = looksAlong(after.area, normal);
+    worstAfter = std::min(worstAfter, after.quality);
   });
-  if (!good || (worstAfter < worstBefore && worstAfter < kPoorQuality)) return false;
+  if (!good) return false;
+  if (worstAfter < kPoorQuality) {
+    double worstBefore = 1.0;
+    mesh_.forEachOutgoing(
+        v, [&](std::int32_t h) { worstBefore = std::min(worstBefore, quality(v, mesh_.target(h), mesh_.apex(h))); });
+    if (worstAfter < worstBefore) return false;
+  }
   mesh_.position[index(v)] = to;
   return true;
 }
@@ -308,7 +328,8 @@ void Remesher::smooth(int sweeps) {
   }
   for (std::int32_t v = 0; v < mesh_.vertexCount(); ++v) {
     if (mesh_.isVertexRemoved(v) || mesh_.role[index(v)] != VertexRole::interior) continue;
-    const FaceReference::Foot foot = reference_.project(mesh_.positionOf(v), mesh_.normal[index(v)]);
+    const FaceReference::Foot foot =
+        reference_.project(mesh_.positionOf(v), mesh_.normal[index(v)], mesh_.triangle[index(v)]);
     if (!tryMove(v, foot.position, foot.normal)) continue;
     mesh_.normal[index(v)] = foot.normal;
     mesh_.triangle[index(v)] = foot.triangle;

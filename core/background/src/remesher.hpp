@@ -34,8 +34,9 @@ class Remesher {
   bool forcePoint(std::int32_t v);
   /// Shrinks short edges inside; returns how many.
   std::int32_t collapseShort();
-  /// Splits long edges inside, and edges between two boundary vertices where there is room for a vertex.
-  void splitLong();
+  /// Splits edges inside that are longer than `scale` targets, and edges between two boundary vertices where there is
+  /// room for a vertex; returns how many.
+  std::int32_t splitLong(double scale);
   /// Flips edges where that makes better triangles.
   void flipEdges();
   /// Moves vertices inside towards the middle of their neighbours, then onto the face.
@@ -46,13 +47,12 @@ class Remesher {
  private:
   [[nodiscard]] double edgeLength(std::int32_t a, std::int32_t b) const;
   [[nodiscard]] double quality(std::int32_t a, std::int32_t b, std::int32_t c) const;
-  [[nodiscard]] bool looksOutward(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& normal) const;
   [[nodiscard]] bool tryCollapse(std::int32_t h, std::int32_t removed);
   [[nodiscard]] bool keepsShape(std::int32_t removed, std::int32_t kept, double longest);
   [[nodiscard]] bool wantsFlip(std::int32_t h) const;
   [[nodiscard]] bool tryMove(std::int32_t v, const Vec3& to, const Vec3& normal);
   void splitEdge(std::int32_t h);
-  [[nodiscard]] bool isTooLong(std::int32_t h) const;
+  [[nodiscard]] bool isTooLong(std::int32_t h, double scale) const;
   [[nodiscard]] bool isLongInSliver(std::int32_t h) const;
   [[nodiscard]] bool joinsBoundary(std::int32_t a, std::int32_t b) const;
 

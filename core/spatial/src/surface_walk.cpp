@@ -53,7 +53,8 @@ SurfacePoint walkToClosest(const Surface& surface, TriangleId start, const Vec3&
   double bestDistance = squaredNorm(query - positionOf(surface, best));
   for (int step = 0; step < kMaxSteps; ++step) {
     const TriangleId from = best.triangle;
-    // Inside a triangle nothing closer is near; otherwise look at all triangles around the corners that carry the point.
+    // Inside a triangle nothing closer is near; otherwise look at all triangles around the corners that carry the
+    // point.
     for (int corner = 0; corner < 3; ++corner) {
       const auto weights = best.barycentric;
       if (best.triangle != from) break;

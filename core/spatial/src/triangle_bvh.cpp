@@ -14,10 +14,13 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 double component(const Vec3& v, int axis) { return axis == 0 ? v.x : (axis == 1 ? v.y : v.z); }
 
+double gap(double p, double low, double high) { return p < low ? low - p : (p > high ? p - high : 0.0); }
+
 double squaredDistanceToBox(const Vec3& p, const Vec3& low, const Vec3& high) {
-  const Vec3 gap{std::max({low.x - p.x, 0.0, p.x - high.x}), std::max({low.y - p.y, 0.0, p.y - high.y}),
-                 std::max({low.z - p.z, 0.0, p.z - high.z})};
-  return squaredNorm(gap);
+  const double x = gap(p.x, low.x, high.x);
+  const double y = gap(p.y, low.y, high.y);
+  const double z = gap(p.z, low.z, high.z);
+  return x * x + y * y + z * z;
 }
 
 ClosestPoint weighted(const Vec3& query, const std::array<Vec3, 3>& corner, const std::array<double, 3>& weight) {
@@ -135,6 +138,10 @@ TriangleBvh::TriangleBvh(const std::vector<Vec3>& positions,
     nodes_.push_back({{}, {}, middle, last - middle, 0});
   }
 
+  place_.resize(order_.size());
+  for (std::size_t i = 0; i < order_.size(); ++i) {
+    place_[static_cast<std::size_t>(order_[i])] = static_cast<std::int32_t>(i);
+  }
   triangles_.reserve(order_.size());
   normals_.reserve(order_.size());
   for (const std::int32_t t : order_) {
@@ -162,13 +169,20 @@ TriangleBvh::TriangleBvh(const std::vector<Vec3>& positions,
 }
 
 template <class Accept>
-ClosestPoint TriangleBvh::search(const Vec3& query, Accept accept) const {
+ClosestPoint TriangleBvh::search(const Vec3& query, std::int32_t hint, Accept accept) const {
   struct Entry {
     std::int32_t node;
     double squaredDistance;
   };
   ClosestPoint best;
   best.squaredDistance = kInfinity;
+  if (hint >= 0) {
+    const auto index = static_cast<std::size_t>(place_[static_cast<std::size_t>(hint)]);
+    if (accept(index)) {
+      best = closestOn(query, triangles_[index]);
+      best.triangle = hint;
+    }
+  }
   std::array<Entry, 128> stack;  // Two entries a level, and halving 2^31 triangles takes fewer than 32 levels.
   std::size_t top = 0;
   stack[top++] = {0, 0.0};
@@ -201,11 +215,12 @@ ClosestPoint TriangleBvh::search(const Vec3& query, Accept accept) const {
 }
 
 ClosestPoint TriangleBvh::closest(const Vec3& query) const {
-  return search(query, [](std::size_t) { return true; });
+  return search(query, -1, [](std::size_t) { return true; });
 }
 
-ClosestPoint TriangleBvh::closest(const Vec3& query, const Vec3& normal, double minCosine) const {
-  const ClosestPoint best = search(query, [&](std::size_t index) { return dot(normals_[index], normal) >= minCosine; });
+ClosestPoint TriangleBvh::closest(const Vec3& query, const Vec3& normal, double minCosine, std::int32_t hint) const {
+  const ClosestPoint best =
+      search(query, hint, [&](std::size_t index) { return dot(normals_[index], normal) >= minCosine; });
   return best.triangle >= 0 ? best : closest(query);
 }
 

@@ -117,6 +117,20 @@ TEST(TriangleBvh, NormalFilterKeepsToTheSheet) {
   EXPECT_DOUBLE_EQ(bvh.closest(query, {1.0, 0.0, 0.0}, 0.5).position.z, 0.1);
 }
 
+TEST(TriangleBvh, HintChangesNothing) {
+  const Soup soup = randomSoup(21, 300);
+  const TriangleBvh bvh(soup.positions, soup.triangles);
+  Random random(22);
+  for (int i = 0; i < 300; ++i) {
+    const Vec3 query = randomPoint(random, 1.5);
+    const Vec3 normal = normalized(randomPoint(random, 1.0));
+    const ClosestPoint plain = bvh.closest(query, normal, 0.3);
+    const ClosestPoint hinted = bvh.closest(query, normal, 0.3, i);
+    EXPECT_EQ(plain.triangle, hinted.triangle);
+    EXPECT_EQ(plain.position, hinted.position);
+  }
+}
+
 TEST(TriangleBvh, EmptyMeshIsEmpty) { EXPECT_TRUE(TriangleBvh({}, {}).empty()); }
 
 }  // namespace

@@ -14,15 +14,15 @@
 namespace qmcf {
 
 struct BackgroundOptions {
-  double relativeSize = 0.8;      ///< Length of the triangles' edges in units of the size field, in [0.3, 2].
-  std::int32_t iterations = 8;    ///< Rounds of split, collapse, flip, smooth, project; 1 to 50.
+  double relativeSize = 0.8;    ///< Length of the triangles' edges in units of the size field, in [0.3, 2].
+  std::int32_t iterations = 5;  ///< Rounds of split, collapse, flip, smooth, project; 1 to 50.
 };
 
 /// The clean triangulation of one face, or the edges that need more divisions before there can be one.
 struct BackgroundResult {
-  Patch patch;                            ///< Its boundary edges are exactly the divisions of the face's edges.
-  std::vector<std::int32_t> tooCoarse;    ///< Edges of the B-rep whose chords cut through the face; then patch is empty.
-  double largestDistance = 0.0;           ///< Of the patch's vertices from the face's triangles.
+  Patch patch;                          ///< Its boundary edges are exactly the divisions of the face's edges.
+  std::vector<std::int32_t> tooCoarse;  ///< Edges of the B-rep whose chords cut through the face; then patch is empty.
+  double largestDistance = 0.0;         ///< Of the patch's vertices from the face's triangles.
 };
 
 /// Remeshes one face isotropically to the size field with its boundary given by the divided edges: the boundary of the

@@ -32,7 +32,9 @@ class TriangleBvh {
   /// The closest point; ties go to the smallest triangle id. \pre !empty()
   [[nodiscard]] ClosestPoint closest(const Vec3& query) const;
   /// As above among triangles whose unit normal n has dot(n, normal) >= minCosine; without any such triangle, as above.
-  [[nodiscard]] ClosestPoint closest(const Vec3& query, const Vec3& normal, double minCosine) const;
+  /// hint: a triangle near the answer, or -1; it changes how long the search takes and nothing else.
+  [[nodiscard]] ClosestPoint closest(const Vec3& query, const Vec3& normal, double minCosine,
+                                     std::int32_t hint = -1) const;
 
  private:
   struct Node {
@@ -44,10 +46,11 @@ class TriangleBvh {
   };
 
   template <class Accept>
-  ClosestPoint search(const Vec3& query, Accept accept) const;
+  ClosestPoint search(const Vec3& query, std::int32_t hint, Accept accept) const;
 
   std::vector<Node> nodes_;
   std::vector<std::int32_t> order_;             ///< Triangle ids, leaf by leaf.
+  std::vector<std::int32_t> place_;             ///< Per triangle: its entry in order_.
   std::vector<std::array<Vec3, 3>> triangles_;  ///< Corners in the order of order_.
   std::vector<Vec3> normals_;                   ///< Unit normals in the order of order_.
 };
