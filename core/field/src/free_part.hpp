@@ -7,7 +7,21 @@
 
 namespace qmcf {
 
-using FieldFactor = Eigen::SimplicialLDLT<FieldMatrix, Eigen::Lower, Eigen::AMDOrdering<int>>;
+/// The factors L D L^H of a Hermitian matrix.
+class FieldFactor : public Eigen::SimplicialLDLT<FieldMatrix, Eigen::Lower, Eigen::AMDOrdering<int>> {
+ public:
+  using SimplicialLDLT::SimplicialLDLT;
+
+  /// Eigen's own solve() divides by D as complex numbers, which compilers' run-time libraries round differently.
+  [[nodiscard]] FieldVector solve(const FieldVector& side) const {
+    FieldVector x = permutationP() * side;
+    matrixL().solveInPlace(x);
+    const FieldVector diagonal = vectorD();
+    for (Eigen::Index i = 0; i < x.size(); ++i) x[i] /= diagonal[i].real();
+    matrixU().solveInPlace(x);
+    return permutationPinv() * x;
+  }
+};
 
 /// The unknowns of a system some of whose entries are given.
 class FreePart {
