@@ -1,4 +1,4 @@
-import type { FieldResult, InspectResult, MeshOptions, MeshResult, Mode } from 'qmcf';
+import type { FieldResult, InspectResult, MeshOptions, MeshResult } from 'qmcf';
 
 /** What the viewport shows. */
 export type View = 'part' | 'field' | 'mesh';
@@ -21,7 +21,6 @@ export interface Settings {
   readonly size: number;
   readonly quads: number;
   readonly featureAngle: number;
-  readonly mode: Mode;
   readonly alignBoundary: boolean;
   readonly alignSharp: boolean;
   readonly alignNonManifold: boolean;
@@ -80,7 +79,6 @@ export const initialState: State = {
     size: 0,
     quads: 3000,
     featureAngle: 30,
-    mode: 'qmcf',
     alignBoundary: true,
     alignSharp: true,
     alignNonManifold: true,

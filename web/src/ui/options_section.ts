@@ -1,7 +1,7 @@
 import { el } from '../dom.js';
 import type { Session } from '../session.js';
 import type { Settings, Store } from '../state.js';
-import { numberField, select, toggle } from './fields.js';
+import { numberField, toggle } from './fields.js';
 
 type Constraint = Extract<keyof Settings, `align${string}`>;
 
@@ -12,7 +12,7 @@ const constraints: readonly (readonly [Constraint, string, string])[] = [
   ['alignCurvature', 'Curvature', 'Quads run along the directions of principal curvature where these are clear.'],
 ];
 
-/** Features, what the field follows, and the method. */
+/** Features, and what the field follows. */
 export function optionsSection(store: Store, session: Session): HTMLElement {
   const angle = numberField({
     label: 'Feature angle',
@@ -22,20 +22,11 @@ export function optionsSection(store: Store, session: Session): HTMLElement {
     open: true,
     onChange: (featureAngle) => session.changeSettings({ featureAngle }),
   });
-  const method = select(
-    'Method',
-    [
-      ['qmcf', 'Cross field (QMCF)'],
-      ['qmorph', 'Classic Q-Morph'],
-    ],
-    (mode) => session.changeSettings({ mode }),
-  );
   const toggles = constraints.map(
     ([name, label, hint]) => [name, toggle(label, (on) => session.changeSettings({ [name]: on }), hint)] as const,
   );
   store.subscribe(({ settings }) => {
     angle.set(String(settings.featureAngle));
-    method.input.value = settings.mode;
     for (const [name, { input }] of toggles) {
       input.checked = settings[name];
     }
@@ -44,7 +35,7 @@ export function optionsSection(store: Store, session: Session): HTMLElement {
     'details',
     { class: 'options' },
     el('summary', {}, 'Features and directions'),
-    el('div', { class: 'pair' }, angle.element, method.element),
+    angle.element,
     el(
       'fieldset',
       {},

@@ -113,7 +113,6 @@ function figures(quality: QualityReport, size: number): HTMLElement {
 
 const methodNames: Record<FaceReport['method'], string> = {
   qmcf: 'cross field',
-  qmorph: 'Q-Morph',
   recombined: 'paired triangles',
   triangles: 'triangles only',
 };
