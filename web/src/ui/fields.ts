@@ -57,15 +57,3 @@ export function toggle(label: string, onChange: (on: boolean) => void, hint?: st
   const element = el('label', { class: 'toggle', title: hint }, input, text);
   return { element, input };
 }
-
-/** A labelled choice of a few values. */
-export function select<T extends string>(
-  label: string,
-  values: readonly (readonly [value: T, text: string])[],
-  onChange: (value: T) => void,
-): { element: HTMLElement; input: HTMLSelectElement } {
-  const id = uniqueId();
-  const input = el('select', { id }, ...values.map(([value, text]) => el('option', { value }, text)));
-  input.addEventListener('change', () => onChange(input.value as T));
-  return { element: el('div', { class: 'field' }, el('label', { for: id }, label), input), input };
-}

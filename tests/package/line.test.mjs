@@ -1,0 +1,102 @@
+// The queue in front of the worker, with a worker of the test's own: what can't be provoked with the real one.
+import assert from 'node:assert/strict';
+import { join } from 'node:path';
+import { test } from 'node:test';
+import { installed } from './packed.mjs';
+
+const { Line } = await import(join(installed, 'dist/line.js'));
+
+/** A platform whose workers do what the test says. */
+function fakePlatform(sharedMemory) {
+  const threads = [];
+  return {
+    sharedMemory,
+    threads,
+    spawn(events) {
+      const thread = {
+        events,
+        messages: [],
+        alive: true,
+        post: (message) => thread.messages.push(message),
+        terminate: () => (thread.alive = false),
+        hold: () => {},
+        lastId: () => thread.messages.at(-1).id,
+      };
+      threads.push(thread);
+      return thread;
+    },
+  };
+}
+
+function start(line) {
+  const run = { task: { name: 'inspect' }, transfer: [], onProgress: undefined };
+  run.result = new Promise((resolve, reject) => Object.assign(run, { resolve, reject }));
+  line.add(run);
+  return run;
+}
+
+const code = async (promise) => (await promise.then(() => 'done', (error) => error)).code;
+
+for (const [outOfMemory, expected] of [[true, 'tooLarge'], [false, 'internal']]) {
+  test(`a crash (out of memory: ${outOfMemory}) is ${expected}, and the next run gets a new worker`, async () => {
+    const platform = fakePlatform(true);
+    const line = new Line(platform, {});
+    const [first, second] = [start(line), start(line)];
+    const [thread] = platform.threads;
+    thread.events.onMessage({ kind: 'crashed', id: thread.lastId(), outOfMemory, message: 'unreachable' });
+    assert.equal(await code(first.result), expected);
+    assert.equal(thread.alive, false);
+    assert.equal(platform.threads.length, 2);
+    const next = platform.threads[1];
+    next.events.onMessage({ kind: 'done', id: next.lastId(), value: 42 });
+    assert.equal(await second.result, 42);
+  });
+}
+
+test('a worker that ends by itself fails its run', async () => {
+  const platform = fakePlatform(true);
+  const run = start(new Line(platform, {}));
+  platform.threads[0].events.onFailure('script not found');
+  assert.equal(await code(run.result), 'internal');
+});
+
+test('without shared memory a cancelled run costs the worker, at once', async () => {
+  const platform = fakePlatform(false);
+  const line = new Line(platform, {});
+  const run = start(line);
+  line.cancel(run);
+  assert.equal(await code(run.result), 'cancelled');
+  assert.equal(platform.threads[0].alive, false);
+  assert.equal(platform.threads[0].messages[0].cancelFlag, undefined);
+});
+
+test('with shared memory a cancelled run is told to stop, and its worker is kept', async () => {
+  const platform = fakePlatform(true);
+  const line = new Line(platform, {});
+  const [first, second] = [start(line), start(line)];
+  const [thread] = platform.threads;
+  const id = thread.lastId();
+  line.cancel(first);
+  assert.equal(await code(first.result), 'cancelled');
+  assert.equal(new Int32Array(thread.messages[0].cancelFlag)[0], id);
+  thread.events.onMessage({ kind: 'failed', id, error: { code: 'cancelled', message: '', elements: [] } });
+  assert.equal(thread.alive, true);
+  assert.equal(thread.lastId(), id + 1);
+  thread.events.onMessage({ kind: 'done', id: id + 1, value: 1 });
+  assert.equal(await second.result, 1);
+});
+
+test('a worker that does not notice the flag is replaced', async () => {
+  const platform = fakePlatform(true);
+  const line = new Line(platform, {});
+  const [first, second] = [start(line), start(line)];
+  line.cancel(first);
+  await code(first.result);
+  while (platform.threads.length < 2) {
+    await new Promise((resolve) => setTimeout(resolve, 50));
+  }
+  assert.equal(platform.threads[0].alive, false);
+  const next = platform.threads[1];
+  next.events.onMessage({ kind: 'done', id: next.lastId(), value: 'again' });
+  assert.equal(await second.result, 'again');
+});

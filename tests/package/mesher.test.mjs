@@ -1,0 +1,208 @@
+// The installed package at work in Node.
+import assert from 'node:assert/strict';
+import { readFileSync, writeFileSync } from 'node:fs';
+import { after, before, test } from 'node:test';
+import { inProject, native, qmcf, root, sample } from './packed.mjs';
+
+const { createMesher, outputFormats, QmcfError } = qmcf;
+
+let mesher;
+before(async () => (mesher = await createMesher()));
+after(() => mesher.dispose());
+
+const text = (bytes) => new TextDecoder().decode(bytes);
+const withCode = (code) => (error) => error instanceof QmcfError && error.code === code && error.message.length > 10;
+
+/** Positions and triangles of an OBJ with nothing but triangles. */
+function parseObj(source) {
+  const rows = text(source).split('\n').map((line) => line.trim().split(/\s+/));
+  const numbers = (kind, parse) => rows.filter(([first]) => first === kind).flatMap((row) => row.slice(1).map(parse));
+  return {
+    positions: new Float64Array(numbers('v', Number)),
+    triangles: new Uint32Array(numbers('f', (corner) => parseInt(corner, 10) - 1)),
+  };
+}
+
+for (const { file } of JSON.parse(readFileSync(`${root}/samples/index.json`, 'utf8'))) {
+  test(`${file}: the same bytes as from the native program`, async () => {
+    const output = inProject(`${file}.native.obj`);
+    const run = native('mesh', `${root}/samples/${file}`, '-o', output, '--quads', '800', '--quiet');
+    assert.equal(run.status, 0, run.stderr);
+    const mesh = await mesher.mesh(sample(file), { quads: 800 });
+    assert.equal(mesh.report.quality.valid, true);
+    assert.equal(mesh.elements.length, 4 * (mesh.report.quality.quads + mesh.report.quality.triangles));
+    const ours = Buffer.from(await mesh.file('obj'));
+    assert.ok(ours.length > 1000);
+    assert.ok(ours.equals(readFileSync(output)), 'the files differ');
+  });
+}
+
+test('buffers give the same mesh as the file they come from', async () => {
+  const file = sample('t_sheets.obj');
+  const fromFile = await mesher.mesh(file, { quads: 300 });
+  const fromBuffers = await mesher.mesh(parseObj(file), { quads: 300 });
+  assert.deepEqual(fromBuffers.positions, fromFile.positions);
+  assert.deepEqual(fromBuffers.elements, fromFile.elements);
+});
+
+test('inspect recovers the faces and edges of a cylinder', async () => {
+  const { faceNames, edgeKinds, triangleFace, triangles, edgeOffsets, edgePoints, report } = await mesher.inspect(
+    sample('cylinder.obj'),
+  );
+  assert.equal(faceNames.length, 3);
+  assert.deepEqual([...edgeKinds], ['sharp', 'sharp']);
+  assert.equal(triangleFace.length, triangles.length / 3);
+  assert.deepEqual(new Set(triangleFace), new Set([0, 1, 2]));
+  assert.equal(edgeOffsets.at(-1), edgePoints.length);
+  assert.equal(report.counts.bodies, 1);
+  assert.equal(report.bodies[0].closed, true);
+});
+
+test('inspect finds the edge of three sheets', async () => {
+  const { report } = await mesher.inspect(sample('t_sheets.obj'));
+  assert.equal(report.counts.edges.nonManifold, 1);
+});
+
+test('the field of a torus has no net index, and its directions are tangent unit vectors', async () => {
+  const { crosses, singularities, size } = await mesher.field(sample('torus.obj'), { quads: 1000 });
+  assert.ok(size > 0);
+  assert.equal(singularities.indices.reduce((sum, index) => sum + index, 0), 0);
+  for (let i = 0; i < crosses.directions.length; i += 3) {
+    const [d, n] = [crosses.directions, crosses.normals].map((a) => a.subarray(i, i + 3));
+    assert.ok(Math.abs(Math.hypot(...d) - 1) < 1e-9);
+    assert.ok(Math.abs(d[0] * n[0] + d[1] * n[1] + d[2] * n[2]) < 1e-9);
+  }
+});
+
+test('the field of a capsule has eight quarter turns, four times its Euler characteristic', async () => {
+  const { singularities } = await mesher.field(sample('capsule.obj'), { quads: 1000 });
+  assert.equal(singularities.indices.reduce((sum, index) => sum + index, 0), 8);
+});
+
+test('progress passes through the stages in order', async () => {
+  const seen = [];
+  await mesher.mesh(sample('cylinder.obj'), { quads: 500 }, { onProgress: ({ stage }) => seen.push(stage) });
+  const order = seen.map((stage) => qmcf.stages.indexOf(stage));
+  assert.ok(seen.includes('read') && seen.includes('front') && seen.includes('quality'), seen.join());
+  assert.ok(Math.min(...order) >= 0);
+  assert.equal(order.indexOf(qmcf.stages.indexOf('front')) > order.indexOf(qmcf.stages.indexOf('field')), true);
+});
+
+test('every format can be written, and an unknown one is an error', async () => {
+  const mesh = await mesher.mesh(sample('cylinder.obj'), { quads: 200 });
+  for (const format of outputFormats) {
+    assert.ok((await mesh.file(format)).length > 1000, format);
+  }
+  await assert.rejects(mesh.file('docx'), withCode('unsupportedOutput'));
+});
+
+test('an aborted run stops, and the next one is as if nothing had been', async () => {
+  const input = sample('stepped_shaft.stl');
+  const expected = await (await mesher.mesh(input, { quads: 500 })).file('obj');
+  const stop = new AbortController();
+  let late = 0;
+  const run = mesher.mesh(input, { quads: 100_000 }, {
+    signal: stop.signal,
+    onProgress: ({ stage }) => {
+      late += stop.signal.aborted ? 1 : 0;
+      if (stage === 'background') stop.abort();
+    },
+  });
+  await assert.rejects(run, withCode('cancelled'));
+  const again = await (await mesher.mesh(input, { quads: 500 })).file('obj');
+  assert.deepEqual(again, expected);
+  assert.equal(late, 0);
+});
+
+test('a signal that was aborted before starts nothing', async () => {
+  const run = mesher.mesh(sample('cylinder.obj'), {}, { signal: AbortSignal.abort() });
+  await assert.rejects(run, withCode('cancelled'));
+});
+
+test('a waiting run can be cancelled without harm to the one before it', async () => {
+  const stop = new AbortController();
+  const first = mesher.mesh(sample('cylinder.obj'), { quads: 300 });
+  const second = mesher.mesh(sample('cylinder.obj'), { quads: 300 }, { signal: stop.signal });
+  stop.abort();
+  await assert.rejects(second, withCode('cancelled'));
+  assert.ok((await first).report.quality.quads > 100);
+});
+
+test('dispose settles what is under way and refuses what comes after', async () => {
+  const other = await createMesher();
+  const running = other.mesh(sample('torus.obj'), { quads: 50_000 });
+  const waiting = other.inspect(sample('torus.obj'));
+  other.dispose();
+  await assert.rejects(running, withCode('cancelled'));
+  await assert.rejects(waiting, withCode('cancelled'));
+  await assert.rejects(other.inspect(sample('torus.obj')), withCode('cancelled'));
+});
+
+test('input is copied, or given away when asked for', async () => {
+  const kept = new Uint8Array(sample('cylinder.obj'));
+  await mesher.inspect(kept);
+  assert.ok(kept.length > 0);
+  const given = new Uint8Array(sample('cylinder.obj'));
+  await mesher.inspect(given, {}, { transferInput: true });
+  assert.equal(given.length, 0);
+});
+
+const brokenFiles = {
+  emptyInput: '',
+  truncatedInput: sample('plate_with_holes.stl').subarray(0, 4000),
+  indexOutOfRange: 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 7\n',
+  nonFiniteCoordinate: 'v 0 0 0\nv 1 0 nan\nv 0 1 0\nf 1 2 3\n',
+  unknownFormat: '<html>no mesh</html>',
+};
+for (const [code, content] of Object.entries(brokenFiles)) {
+  test(`a broken file is ${code}, with the sentence of the command line`, async () => {
+    const path = inProject(`${code}.${code === 'truncatedInput' ? 'stl' : 'obj'}`);
+    writeFileSync(path, content);
+    const run = native('mesh', path, '-o', inProject('never.obj'), '--quiet');
+    assert.equal(run.status, 3);
+    await assert.rejects(mesher.mesh(new Uint8Array(Buffer.from(content))), (error) => {
+      assert.ok(withCode(code)(error), `${error.code}: ${error.message}`);
+      assert.ok(run.stderr.includes(error.message), run.stderr);
+      return true;
+    });
+  });
+}
+
+const wrongOptions = [
+  { size: -1 },
+  { size: Number.NaN },
+  { size: '1' },
+  { quads: 0 },
+  { quads: 1.5 },
+  { size: 1, quads: 100 },
+  { featureAngle: 200 },
+  { alignSharp: 1 },
+  { sizes: 1 },
+];
+for (const options of wrongOptions) {
+  test(`the options ${JSON.stringify(options)} are refused`, async () => {
+    await assert.rejects(mesher.mesh(sample('cylinder.obj'), options), withCode('invalidOption'));
+  });
+}
+
+test('what is no model at all is refused', async () => {
+  await assert.rejects(mesher.mesh({ positions: [0, 0, 0], triangles: [0, 0, 0] }), withCode('malformedInput'));
+  await assert.rejects(mesher.mesh(undefined), withCode('malformedInput'));
+  const uneven = { positions: new Float64Array(8), triangles: new Uint32Array(3) };
+  await assert.rejects(mesher.mesh(uneven), withCode('malformedInput'));
+});
+
+test('WebAssembly that can not be loaded is told', async () => {
+  await assert.rejects(createMesher({ wasm: '/no/such/file.wasm' }), withCode('internal'));
+  await assert.rejects(createMesher({ wasm: new Uint8Array(8) }), withCode('internal'));
+});
+
+test('one compiled module serves several meshers, and using disposes of them', async () => {
+  const wasm = await WebAssembly.compile(readFileSync(inProject('node_modules/qmcf/dist/qmcf.wasm')));
+  const [one, two] = await Promise.all([createMesher({ wasm }), createMesher({ wasm })]);
+  const [a, b] = await Promise.all([one, two].map((m) => m.inspect(sample('cylinder.obj'))));
+  assert.deepEqual(a.positions, b.positions);
+  one[Symbol.dispose]();
+  two.dispose();
+  await assert.rejects(one.inspect(sample('cylinder.obj')), withCode('cancelled'));
+});
