@@ -6,7 +6,7 @@ import { dropZone } from './ui/drop.js';
 import { footer } from './ui/footer.js';
 import { gallery } from './ui/gallery.js';
 import { icons, mark } from './ui/icons.js';
-import { modelSection, openControl } from './ui/model_section.js';
+import { modelSection } from './ui/model_section.js';
 import { optionsSection } from './ui/options_section.js';
 import { resultSection } from './ui/result_section.js';
 import { makeSheet } from './ui/sheet.js';
@@ -18,7 +18,6 @@ const store = new Store();
 const session = new Session(store);
 
 const canvas = el('canvas', { class: 'viewport', 'aria-label': 'Three-dimensional view', tabindex: -1 });
-const open = openControl(session);
 const panel = el(
   'aside',
   { class: 'panel', 'aria-label': 'Mesher' },
@@ -26,7 +25,7 @@ const panel = el(
   el(
     'div',
     { class: 'body' },
-    modelSection(store, open),
+    modelSection(store, session),
     sizeSection(store, session),
     optionsSection(store, session),
     resultSection(store),
@@ -36,9 +35,10 @@ const panel = el(
 makeSheet(panel);
 const fit = button(icons.fit(), { class: 'fit', 'aria-label': 'Fit the view', title: 'Fit the view' }, () => viewer.fit());
 const views = viewBar(store, session);
+const pickFile = () => panel.querySelector<HTMLInputElement>('input[type=file]')!.click();
 const app = document.querySelector('#app')!;
 const display = displayCard(store, session);
-app.append(canvas, panel, views, display, fit, gallery(store, session, open), dropZone(session));
+app.append(canvas, panel, views, display, fit, gallery(store, session, pickFile), dropZone(session));
 
 const viewer = new Viewer(canvas);
 

@@ -6,19 +6,22 @@ import type { State, Store } from '../state.js';
 import { icons } from './icons.js';
 
 /** Which part is open, what is known of it, and how to open another. */
-export function modelSection(store: Store, openControl: HTMLElement): HTMLElement {
+export function modelSection(store: Store, session: Session): HTMLElement {
   const name = el('h2', { class: 'model-name' });
   const facts = el('p', { class: 'facts' });
   const repairs = el('ul', { class: 'notes' });
   const repairBox = el('details', { class: 'repairs' }, el('summary', {}, 'What was repaired'), repairs);
   const gallery = button(icons.gallery(), { class: 'quiet icon-text' }, () => store.update({ galleryOpen: true }));
   gallery.append('Samples');
-  const row = el('div', { class: 'row' }, gallery);
-  const section = el('section', { class: 'model', 'aria-label': 'Model' }, name, facts, repairBox, row);
+  const section = el(
+    'section',
+    { class: 'model', 'aria-label': 'Model' },
+    name,
+    facts,
+    repairBox,
+    el('div', { class: 'row' }, openControl(session), gallery),
+  );
   store.subscribe((state, before) => {
-    if (!state.galleryOpen && openControl.parentElement !== row) {
-      row.prepend(openControl);
-    }
     if (state === before || state.model !== before.model) {
       setText(name, state.model?.name ?? 'No part yet');
       setText(facts, factsOf(state));
@@ -30,10 +33,7 @@ export function modelSection(store: Store, openControl: HTMLElement): HTMLElemen
   return section;
 }
 
-/**
- * The file picker; the input itself is hidden from sight only. There is one on the page, so that its name is unique: it
- * is where it can be seen, in the gallery or in the panel.
- */
+/** The file picker: the input itself is hidden from sight only. */
 export function openControl(session: Session): HTMLElement {
   const input = el('input', { type: 'file', class: 'visually-hidden', accept: '.obj,.stl,.ply', 'aria-label': 'Open model' });
   input.addEventListener('change', () => {
