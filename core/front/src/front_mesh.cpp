@@ -1,4 +1,4 @@
-#include "front_mesh.hpp"
+#include "qmcf/front/front_mesh.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,12 +1,12 @@
 // What the front could not mesh: fewer triangles, then pairs of them as quads.
-#include "leftover.hpp"
+#include "qmcf/front/leftover.hpp"
 
 #include <algorithm>
 #include <tuple>
 #include <vector>
 
+#include "qmcf/front/recovery.hpp"
 #include "qmcf/mesh/element_shape.hpp"
-#include "recovery.hpp"
 
 namespace qmcf {
 namespace {

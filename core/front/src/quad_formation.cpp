@@ -1,5 +1,5 @@
 // Steps 4c of section 4.1 (Owen et al. 1999) and the closing of small loops.
-#include "quad_formation.hpp"
+#include "qmcf/front/quad_formation.hpp"
 
 #include <algorithm>
 #include <cmath>

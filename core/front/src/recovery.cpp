@@ -1,5 +1,5 @@
 // Walking, insertion and edge recovery in the working triangulation: steps 4a and 4b of section 4.1 (Owen et al. 1999).
-#include "recovery.hpp"
+#include "qmcf/front/recovery.hpp"
 
 #include <algorithm>
 #include <cmath>

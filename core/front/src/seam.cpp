@@ -1,10 +1,10 @@
-#include "seam.hpp"
+#include "qmcf/front/seam.hpp"
 
 #include <algorithm>
 
-#include "quad_formation.hpp"
+#include "qmcf/front/quad_formation.hpp"
+#include "qmcf/front/recovery.hpp"
 #include "qmcf/mesh/element_shape.hpp"
-#include "recovery.hpp"
 
 namespace qmcf {
 namespace {

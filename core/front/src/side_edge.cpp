@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "qmcf/base/math.hpp"
-#include "recovery.hpp"
+#include "qmcf/front/recovery.hpp"
 
 namespace qmcf {
 namespace {

@@ -3,8 +3,8 @@
 #include <optional>
 #include <vector>
 
-#include "front_mesh.hpp"
 #include "qmcf/front/advancing_front.hpp"
+#include "qmcf/front/front_mesh.hpp"
 
 namespace qmcf {
 

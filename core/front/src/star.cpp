@@ -5,9 +5,9 @@
 #include <cmath>
 
 #include "qmcf/base/math.hpp"
+#include "qmcf/front/quad_formation.hpp"
+#include "qmcf/front/recovery.hpp"
 #include "qmcf/spatial/surface_walk.hpp"
-#include "quad_formation.hpp"
-#include "recovery.hpp"
 
 namespace qmcf {
 namespace {

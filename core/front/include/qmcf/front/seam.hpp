@@ -1,6 +1,6 @@
 #pragma once
 
-#include "front_mesh.hpp"
+#include "qmcf/front/front_mesh.hpp"
 
 namespace qmcf {
 

@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
-#include "local_plane.hpp"
 #include "qmcf/field/cross_field.hpp"
+#include "qmcf/front/local_plane.hpp"
 #include "qmcf/mesh/edit_mesh.hpp"
 #include "qmcf/mesh/patch.hpp"
 

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "front_mesh.hpp"
+#include "qmcf/front/front_mesh.hpp"
 
 namespace qmcf {
 

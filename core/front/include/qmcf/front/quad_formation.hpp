@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "front_mesh.hpp"
+#include "qmcf/front/front_mesh.hpp"
 
 namespace qmcf {
 
