@@ -285,6 +285,8 @@ export interface MeshReport {
   readonly faces: readonly FaceReport[];
   readonly repair: readonly RepairItem[];
   readonly fieldSingularities: number;
+  /** Where elements of the size asked for could not follow the part, so that there are smaller ones. */
+  readonly refinedPlaces: number;
 }
 
 /** The arrays of a quad-dominant mesh. */

@@ -9,6 +9,7 @@
 
 #include "face_boundary.hpp"
 #include "face_reference.hpp"
+#include "missed_places.hpp"
 #include "remesh_mesh.hpp"
 #include "remesher.hpp"
 
@@ -157,6 +158,9 @@ Result<BackgroundResult> buildBackground(const TriangleMesh& mesh, const Brep& b
   targets.relativeSize = options.relativeSize;
   targets.nodeSize = std::move(boundary.nodeSize);
   targets.spacing = std::move(boundary.spacing);
+  for (const SizeLimit& limit : size.limits) {
+    if (limit.face == face) targets.limits.push_back(limit);
+  }
   Remesher remesher(work, reference, targets);
   if (!remesh(remesher, work, options, progress)) return cancelledError();
 
@@ -170,6 +174,7 @@ Result<BackgroundResult> buildBackground(const TriangleMesh& mesh, const Brep& b
   if (!patch.ok()) return patch.error();
   result.patch = std::move(patch).value();
   result.largestDistance = largestDistance(work, reference);
+  result.missed = findMissedPlaces(cut.surface, reference, result.patch, size.base);
   return result;
 }
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "qmcf/sizing/min_heap.hpp"
+#include "qmcf/sizing/point_grid.hpp"
 
 namespace qmcf {
 namespace {
@@ -69,6 +70,27 @@ void grade(const RemeshMesh& mesh, std::vector<double>& value, double highest, d
 
 }  // namespace
 
+/// Lowers the sizes at vertices near a limit; gradation carries them on.
+void Remesher::applyLimits() {
+  if (targets_.limits.empty()) return;
+  std::vector<Vec3> positions;
+  std::vector<std::int32_t> ids;
+  for (const SizeLimit& limit : targets_.limits) {
+    ids.push_back(static_cast<std::int32_t>(positions.size()));
+    positions.push_back(limit.position);
+  }
+  const PointGrid grid(positions, ids, targets_.base);
+  for (std::int32_t v = 0; v < mesh_.vertexCount(); ++v) {
+    if (mesh_.isVertexRemoved(v)) continue;
+    const Vec3& p = mesh_.positionOf(v);
+    double& size = size_[index(v)];
+    grid.forEachNear(p, [&](std::int32_t limit) {
+      const double cone = targets_.limits[index(limit)].size + targets_.gradation * distance(p, positions[index(limit)]);
+      size = std::min(size, cone);
+    });
+  }
+}
+
 void Remesher::updateSizes() {
   const auto count = index(mesh_.vertexCount());
   size_.assign(count, targets_.base);
@@ -76,6 +98,7 @@ void Remesher::updateSizes() {
   for (std::size_t v = 0; v < targets_.nodeSize.size(); ++v) {
     if (mesh_.role[v] == VertexRole::node) size_[v] = std::min(size_[v], targets_.nodeSize[v]);
   }
+  applyLimits();
   grade(mesh_, size_, targets_.base, targets_.gradation);
   for (std::size_t v = 0; v < count; ++v) length_[v] = size_[v] * targets_.relativeSize;
   for (std::size_t v = 0; v < targets_.spacing.size(); ++v) {

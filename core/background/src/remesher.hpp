@@ -16,6 +16,7 @@ struct RemeshTargets {
   double gradation = 0.2;        ///< Largest slope of the size.
   double relativeSize = 0.8;     ///< Length of triangle edges in units of the size.
   std::vector<double> nodeSize;  ///< Per vertex of the mesh: size at nodes, 0 elsewhere.
+  std::vector<SizeLimit> limits;  ///< Those inside this face.
   std::vector<double> spacing;   ///< Per vertex of the mesh: distance of nodes to their neighbours, 0 elsewhere.
 };
 
@@ -45,6 +46,7 @@ class Remesher {
   [[nodiscard]] const std::vector<double>& size() const { return size_; }
 
  private:
+  void applyLimits();
   [[nodiscard]] double edgeLength(std::int32_t a, std::int32_t b) const;
   [[nodiscard]] double quality(std::int32_t a, std::int32_t b, std::int32_t c) const;
   [[nodiscard]] bool tryCollapse(std::int32_t h, std::int32_t removed);

@@ -38,6 +38,32 @@ FaceMesh extract(const EditMesh& mesh, const FaceMesh& before) {
   return result;
 }
 
+/// Cuts quads that are turned over at a corner into triangles that are not. Returns how many.
+std::int64_t cutInverted(EditMesh& mesh) {
+  std::int64_t cuts = 0;
+  const std::size_t faces = mesh.faceCapacity();
+  for (std::size_t i = 0; i < faces; ++i) {
+    const FaceId f(i);
+    if (mesh.kind(f) == FaceKind::removed || mesh.cornerCount(f) != 4 || !isInverted(mesh, f)) continue;
+    const auto sides = mesh.sides(f);
+    const auto corner = [&](std::size_t c) { return mesh.origin(sides[c % 4]); };
+    double best = 0.0;
+    std::size_t from = 4;
+    for (std::size_t c = 0; c < 2; ++c) {
+      if (mesh.connected(corner(c), corner(c + 2))) continue;
+      const double shape = std::min(triangleShape(mesh, corner(c), corner(c + 1), corner(c + 2)),
+                                    triangleShape(mesh, corner(c), corner(c + 2), corner(c + 3)));
+      if (shape <= best) continue;
+      best = shape;
+      from = c;
+    }
+    if (from == 4) continue;
+    mesh.cut(sides[from], sides[from + 2]);
+    ++cuts;
+  }
+  return cuts;
+}
+
 }  // namespace
 
 Result<CleanupResult> cleanUp(const FaceMesh& mesh, const Patch& patch, const TriangleBvh& target,
@@ -67,11 +93,15 @@ Result<CleanupResult> cleanUp(const FaceMesh& mesh, const Patch& patch, const Tr
     work.commit();
     if (largest < kStill) break;
   }
-  CleanupResult result{extract(work, mesh), topology.statistics(), 1.0, 0};
+  const std::int64_t cuts = cutInverted(work);
+  CleanupResult result{extract(work, mesh), topology.statistics(), 1.0, {}};
+  result.statistics.cuts = cuts;
+  std::int32_t element = 0;
   for (std::size_t i = 0; i < work.faceCapacity(); ++i) {
     if (work.kind(FaceId(i)) == FaceKind::removed) continue;
     result.worstShape = std::min(result.worstShape, faceShape(work, FaceId(i)));
-    result.inverted += isInverted(work, FaceId(i)) ? 1 : 0;
+    if (isDegenerate(work, FaceId(i))) result.degenerate.push_back(element);
+    ++element;
   }
   return result;
 }

@@ -175,6 +175,10 @@ std::string meshText(const MeshResult& result) {
   if (fallbacks > kMostLines) reasons += line("", "... and " + std::to_string(fallbacks - kMostLines) + " more");
   std::vector<std::string> parts;
   for (const auto& [method, count] : methods) parts.push_back(std::to_string(count) + " by " + method);
+  if (result.refinedPlaces > 0) {
+    const std::string places = counted(result.refinedPlaces, "place", "places");
+    reasons += line("", "smaller elements at " + places + " that elements of the size could not follow");
+  }
   return text + line("Faces", join(parts)) + reasons;
 }
 

@@ -9,6 +9,8 @@ namespace {
 /// turned over: the input's facets there may lean still more.
 constexpr double kLeaning = 0.4;
 constexpr double kFolded = 0.2;
+/// Height over length below which a triangle has no area to speak of.
+constexpr double kFlat = 1e-9;
 
 }  // namespace
 
@@ -57,6 +59,18 @@ bool isInverted(const EditMesh& mesh, FaceId f) {
   for (std::size_t i = 0; i < 4; ++i) {
     const Vec3 corner = cross(p(i + 1) - p(i), p(i + 3) - p(i));
     if (!(dot(corner, normal) > 0.0) || !(dot(corner, mesh.normal(mesh.origin(sides[i]))) > 0.0)) return true;
+  }
+  return false;
+}
+
+bool isDegenerate(const EditMesh& mesh, FaceId f) {
+  const auto sides = mesh.sides(f);
+  const std::size_t corners = sides[3].valid() ? 4 : 3;
+  const auto p = [&](std::size_t i) -> const Vec3& { return mesh.position(mesh.origin(sides[i % corners])); };
+  const Vec3 normal = corners == 4 ? cross(p(2) - p(0), p(3) - p(1)) : cross(p(1) - p(0), p(2) - p(0));
+  if (corners == 3) return !(norm(normal) > kFlat * squaredNorm(p(1) - p(0)));
+  for (std::size_t i = 0; i < corners; ++i) {
+    if (!(dot(cross(p(i + 1) - p(i), p(i + 3) - p(i)), normal) > 0.0)) return true;
   }
   return false;
 }

@@ -5,6 +5,7 @@
 #include "qmcf/cleanup/cleanup.hpp"
 #include "qmcf/front/advancing_front.hpp"
 #include "qmcf/spatial/triangle_bvh.hpp"
+#include "too_coarse.hpp"
 
 namespace qmcf {
 namespace {
@@ -52,16 +53,17 @@ Result<MeshedFace> meshFace(const TriangleMesh& mesh, const Brep& brep, const Pr
   if (!front) return front.error();
   auto cleaned = cleanUp(front.value().mesh, patch, tree, CleanupOptions{}, progress);
   if (!cleaned) return cleaned.error();
-  if (cleaned.value().inverted == 0) {
+  if (cleaned.value().degenerate.empty()) {
     result.mesh = std::move(cleaned.value().mesh);
     result.report.method = "qmcf";
     count(result);
     return result;
   }
-  result.report.reason = "the advancing front left an element that is turned over";
+  result.report.reason = "the advancing front left elements without area or turned in on themselves";
+  result.tooCoarse = halvedAt(cleaned.value().mesh, cleaned.value().degenerate, face);
   auto paired = cleanUp(recombinePatch(patch).mesh, patch, tree, CleanupOptions{}, progress);
   if (!paired) return paired.error();
-  if (paired.value().inverted == 0) {
+  if (paired.value().degenerate.empty()) {
     result.mesh = std::move(paired.value().mesh);
     result.report.method = "recombined";
   } else {

@@ -10,6 +10,7 @@ namespace qmcf {
 struct MeshedFace {
   FaceMesh mesh;
   FaceReport report;
+  std::vector<SizeLimit> tooCoarse;  ///< Where the first step failed, with the size that may help.
 };
 
 /// Advancing front and clean-up; if an element is turned over in the result, the paired triangles of the background;

@@ -6,6 +6,7 @@
 
 #include "mesh_faces.hpp"
 #include "prepare.hpp"
+#include "too_coarse.hpp"
 
 namespace qmcf {
 namespace {
@@ -16,6 +17,28 @@ constexpr std::int64_t kMostQuads = 10'000'000;
 MeshOptions withDefaults(MeshOptions options) {
   if (!options.size && !options.quads) options.quads = kDefaultQuads;
   return options;
+}
+
+/// How often places where the mesh is not valid get smaller elements, and how small these may be in units of the base.
+constexpr int kMaxRefinements = 4;
+constexpr double kLowestSize = 0.05;
+
+QualityOptions qualityOptions(const MeshOptions& options, double size) {
+  QualityOptions quality;
+  quality.featureAngle = options.featureAngle;
+  quality.size = size;
+  return quality;
+}
+
+/// What the report says about the faces, besides the quality.
+void describe(MeshResult& result, const PreparedFaces& prepared, const std::vector<MeshedFace>& faces) {
+  result.fieldSingularities = 0;
+  for (const CrossField& field : prepared.fields) {
+    result.fieldSingularities += static_cast<std::int64_t>(field.singularities.size());
+  }
+  result.faces.clear();
+  for (const MeshedFace& face : faces) result.faces.push_back(face.report);
+  result.refinedPlaces = static_cast<std::int64_t>(prepared.size.limits.size());
 }
 
 Error invalid(std::string message) { return {ErrorCode::invalidOption, std::move(message), {}}; }
@@ -75,26 +98,35 @@ Result<MeshResult> meshSurface(const TriangleMesh& input, const MeshOptions& opt
   const Brep& brep = result.input.brep;
   auto preparation = prepareFaces(mesh, brep, withDefaults(options), progress);
   if (!preparation) return preparation.error();
-  const PreparedFaces& prepared = preparation.value();
+  PreparedFaces prepared = std::move(preparation).value();
   result.size = prepared.size.base;
-  for (const CrossField& field : prepared.fields) {
-    result.fieldSingularities += static_cast<std::int64_t>(field.singularities.size());
+  std::vector<MeshedFace> faces(brep.faces.size());
+  std::size_t fewest = 0;
+  for (int attempt = 0;; ++attempt) {
+    std::vector<SizeLimit> limits;
+    for (const std::int32_t f : prepared.changed) {
+      auto face = meshFace(mesh, brep, prepared, f, options, progress);
+      if (!face) return face.error();
+      faces[static_cast<std::size_t>(f)] = std::move(face).value();
+    }
+    for (const MeshedFace& face : faces) limits.insert(limits.end(), face.tooCoarse.begin(), face.tooCoarse.end());
+    QuadMesh joined = joinFaces(brep, prepared, faces);
+    if (!progress.report(Stage::quality, 0.0)) return cancelledError();
+    QualityReport quality = measureQuality(joined, &mesh, qualityOptions(options, result.size));
+    const std::vector<SizeLimit> invalid = halvedWhereInvalid(joined, quality);
+    limits.insert(limits.end(), invalid.begin(), invalid.end());
+    if (attempt == 0 || limits.size() < fewest) {
+      fewest = limits.size();
+      result.mesh = std::move(joined);
+      result.quality = std::move(quality);
+      describe(result, prepared, faces);
+    }
+    limits = notBelow(limits, kLowestSize * result.size);
+    if (limits.empty() || attempt == kMaxRefinements) return result;
+    auto refined = refineFaces(mesh, brep, options, std::move(prepared), limits, progress);
+    if (!refined) return refined.error();
+    prepared = std::move(refined).value();
   }
-
-  std::vector<MeshedFace> faces;
-  for (std::size_t f = 0; f < brep.faces.size(); ++f) {
-    auto face = meshFace(mesh, brep, prepared, static_cast<std::int32_t>(f), options, progress);
-    if (!face) return face.error();
-    result.faces.push_back(face.value().report);
-    faces.push_back(std::move(face).value());
-  }
-  result.mesh = joinFaces(brep, prepared, faces);
-  if (!progress.report(Stage::quality, 0.0)) return cancelledError();
-  QualityOptions quality;
-  quality.featureAngle = options.featureAngle;
-  quality.size = result.size;
-  result.quality = measureQuality(result.mesh, &mesh, quality);
-  return result;
 }
 
 }  // namespace qmcf

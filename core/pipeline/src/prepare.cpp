@@ -1,6 +1,8 @@
 #include "prepare.hpp"
 
 #include <algorithm>
+#include <cstddef>
+#include <optional>
 #include <utility>
 
 namespace qmcf {
@@ -8,6 +10,8 @@ namespace {
 
 /// Each round at least doubles the divisions of an edge that was too coarse, down to the input's own segments.
 constexpr int kMaxDivisionRounds = 12;
+/// Each round halves the size at the places that are missed.
+constexpr int kMissedRounds = 3;
 /// With ten divisions in a full turn the chords of an arc stay within a tenth of their length of it.
 constexpr std::int32_t kDivisionsPerTurn = 10;
 
@@ -34,83 +38,171 @@ class FaceProgress final : public Progress {
   std::size_t count_;
 };
 
-/// Raises the lower bounds of the edges that a face found too coarse. Returns whether any could be raised.
-bool refineEdges(const Brep& brep, const DividedEdges& divided, const std::vector<std::int32_t>& tooCoarse,
-                 std::vector<std::int32_t>& minimum) {
-  minimum.resize(brep.edges.size(), 1);
-  bool raised = false;
-  for (const std::int32_t edge : tooCoarse) {
-    const auto e = static_cast<std::size_t>(edge);
-    const auto now = static_cast<std::int32_t>(divided.edges[e].nodes.size()) - 1;
-    const std::int32_t wanted = 2 * std::max(now, minimum[e]);
-    if (wanted > minimum[e]) {
-      minimum[e] = wanted;
-      raised = true;
+/// The stages up to the cross fields, as often as the faces ask for smaller elements.
+class Preparation {
+ public:
+  Preparation(const TriangleMesh& mesh, const Brep& brep, const MeshOptions& options, PreparedFaces before,
+              Progress& progress)
+      : mesh_(mesh), brep_(brep), options_(options), result_(std::move(before)), progress_(progress) {
+    sizing_.size = options.size;
+    sizing_.quads = options.quads;
+    sizing_.gradation = options.gradation;
+    sizing_.divisionsPerTurn = kDivisionsPerTurn;
+    minimum_.assign(brep.edges.size(), 1);
+    done_.assign(brep.faces.size(), !result_.patches.empty());
+    changed_.assign(brep.faces.size(), result_.patches.empty());
+    result_.patches.resize(brep.faces.size());
+    result_.fields.resize(brep.faces.size());
+  }
+
+  /// From now on the base size is what it was, whatever number of elements that makes.
+  void keepBaseSize() {
+    sizing_.size = result_.size.base;
+    sizing_.quads.reset();
+    sizing_.limits = result_.size.limits;
+    minimum_ = result_.minimumDivisions;
+  }
+
+  Result<PreparedFaces> run(const std::vector<SizeLimit>& limits) {
+    if (const auto error = computeSizes(limits)) return *error;
+    int missedRounds = 0;
+    for (int round = 0; round < kMaxDivisionRounds; ++round) {
+      divide();
+      if (const auto error = triangulate()) return *error;
+      if (!tooCoarse_.empty()) {
+        if (!raiseMinimum()) break;
+      } else if (!missed_.empty() && missedRounds < kMissedRounds) {
+        ++missedRounds;
+        if (const auto error = computeSizes(missed_)) return *error;
+      } else {
+        return finish();
+      }
+    }
+    return Error{ErrorCode::internal, "Some faces could not be triangulated with any number of divisions of their edges.",
+                 {tooCoarse_.begin(), tooCoarse_.end()}};
+  }
+
+ private:
+  std::optional<Error> computeSizes(const std::vector<SizeLimit>& more) {
+    const double base = result_.size.base;
+    sizing_.limits.insert(sizing_.limits.end(), more.begin(), more.end());
+    auto size = computeSizeField(mesh_, brep_, sizing_, progress_);
+    if (!size) return size.error();
+    result_.size = std::move(size).value();
+    if (result_.size.base != base) done_.assign(done_.size(), false);
+    for (const SizeLimit& limit : more) done_[static_cast<std::size_t>(limit.face)] = false;
+    return std::nullopt;
+  }
+
+  /// Divides the edges; faces whose edges keep their nodes keep their triangulations.
+  void divide() {
+    const DividedEdges before = std::move(result_.divided);
+    result_.divided = divideEdges(mesh_, brep_, result_.size, minimum_);
+    const DividedEdges& now = result_.divided;
+    if (before.edges.empty()) return;
+    std::vector<std::int32_t> newNode(before.nodes.size(), kNone);
+    std::vector<bool> kept(brep_.edges.size(), false);
+    for (std::size_t e = 0; e < brep_.edges.size(); ++e) {
+      const EdgeDivision& was = before.edges[e];
+      const EdgeDivision& is = now.edges[e];
+      kept[e] = was.arcLength == is.arcLength;
+      for (std::size_t i = 0; kept[e] && i < is.nodes.size(); ++i) {
+        newNode[static_cast<std::size_t>(was.nodes[i])] = is.nodes[i];
+        kept[e] = before.nodeSize[static_cast<std::size_t>(was.nodes[i])] ==
+                  now.nodeSize[static_cast<std::size_t>(is.nodes[i])];
+      }
+    }
+    for (std::size_t f = 0; f < brep_.faces.size(); ++f) {
+      for (const BrepLoop& loop : brep_.faces[f].loops) {
+        for (const Coedge& coedge : loop.coedges) {
+          if (!kept[static_cast<std::size_t>(coedge.edge)]) done_[f] = false;
+        }
+      }
+      if (!done_[f]) continue;
+      for (std::int32_t& node : result_.patches[f].node.raw()) {
+        if (node != kNone) node = newNode[static_cast<std::size_t>(node)];
+      }
     }
   }
-  return raised;
-}
+
+  std::optional<Error> triangulate() {
+    tooCoarse_.clear();
+    missed_.clear();
+    const std::size_t faces = brep_.faces.size();
+    for (std::size_t f = 0; f < faces; ++f) {
+      if (done_[f]) continue;
+      FaceProgress faceProgress(progress_, f, faces);
+      auto built = buildBackground(mesh_, brep_, static_cast<std::int32_t>(f), result_.size, result_.divided,
+                                   BackgroundOptions{}, faceProgress);
+      if (!built) return built.error();
+      BackgroundResult& background = built.value();
+      tooCoarse_.insert(tooCoarse_.end(), background.tooCoarse.begin(), background.tooCoarse.end());
+      missed_.insert(missed_.end(), background.missed.begin(), background.missed.end());
+      changed_[f] = true;
+      done_[f] = background.tooCoarse.empty();
+      if (done_[f]) result_.patches[f] = std::move(background.patch);
+    }
+    std::sort(tooCoarse_.begin(), tooCoarse_.end());
+    tooCoarse_.erase(std::unique(tooCoarse_.begin(), tooCoarse_.end()), tooCoarse_.end());
+    return std::nullopt;
+  }
+
+  /// Doubles the lower bounds of the edges that a face found too coarse. Returns whether any could be raised.
+  bool raiseMinimum() {
+    bool raised = false;
+    for (const std::int32_t edge : tooCoarse_) {
+      const auto e = static_cast<std::size_t>(edge);
+      const auto now = static_cast<std::int32_t>(result_.divided.edges[e].nodes.size()) - 1;
+      const std::int32_t wanted = 2 * std::max(now, minimum_[e]);
+      if (wanted <= minimum_[e]) continue;
+      minimum_[e] = wanted;
+      raised = true;
+    }
+    return raised;
+  }
+
+  Result<PreparedFaces> finish() {
+    std::vector<std::uint8_t> kinds;
+    for (const BrepEdge& edge : brep_.edges) kinds.push_back(static_cast<std::uint8_t>(edge.kind));
+    const std::size_t faces = brep_.faces.size();
+    result_.changed.clear();
+    for (std::size_t f = 0; f < faces; ++f) {
+      if (!changed_[f]) continue;
+      result_.changed.push_back(static_cast<std::int32_t>(f));
+      FaceProgress faceProgress(progress_, f, faces);
+      auto field = computeCrossField(result_.patches[f], kinds, fieldOptions(options_), faceProgress);
+      if (!field) return field.error();
+      result_.fields[f] = std::move(field).value();
+    }
+    result_.minimumDivisions = minimum_;
+    return std::move(result_);
+  }
+
+  const TriangleMesh& mesh_;
+  const Brep& brep_;
+  const MeshOptions& options_;
+  PreparedFaces result_;
+  Progress& progress_;
+  SizingOptions sizing_;
+  std::vector<std::int32_t> minimum_;    ///< Per edge: divisions that its faces asked for.
+  std::vector<bool> done_;               ///< Per face: the triangulation fits sizes and divisions.
+  std::vector<bool> changed_;            ///< Per face: triangulated anew since the start.
+  std::vector<std::int32_t> tooCoarse_;  ///< Edges, ascending.
+  std::vector<SizeLimit> missed_;
+};
 
 }  // namespace
 
 Result<PreparedFaces> prepareFaces(const TriangleMesh& mesh, const Brep& brep, const MeshOptions& options,
                                    Progress& progress) {
-  PreparedFaces prepared;
-  SizingOptions sizing;
-  sizing.size = options.size;
-  sizing.quads = options.quads;
-  sizing.gradation = options.gradation;
-  sizing.divisionsPerTurn = kDivisionsPerTurn;
-  auto size = computeSizeField(mesh, brep, sizing, progress);
-  if (!size) return size.error();
-  prepared.size = std::move(size).value();
+  return Preparation(mesh, brep, options, {}, progress).run({});
+}
 
-  const std::size_t faces = brep.faces.size();
-  prepared.patches.resize(faces);
-  std::vector<std::int32_t> minimum;
-  std::vector<bool> done(faces, false);
-  for (int round = 0; round < kMaxDivisionRounds; ++round) {
-    DividedEdges divided = divideEdges(mesh, brep, prepared.size, minimum);
-    // Faces whose edges kept their divisions keep their triangulations.
-    for (std::size_t f = 0; round > 0 && f < faces; ++f) {
-      for (const BrepLoop& loop : brep.faces[f].loops) {
-        for (const Coedge& coedge : loop.coedges) {
-          const auto e = static_cast<std::size_t>(coedge.edge);
-          if (divided.edges[e].nodes != prepared.divided.edges[e].nodes) done[f] = false;
-        }
-      }
-    }
-    prepared.divided = std::move(divided);
-    std::vector<std::int32_t> tooCoarse;
-    for (std::size_t f = 0; f < faces; ++f) {
-      if (done[f]) continue;
-      FaceProgress faceProgress(progress, f, faces);
-      auto background = buildBackground(mesh, brep, static_cast<std::int32_t>(f), prepared.size, prepared.divided,
-                                        BackgroundOptions{}, faceProgress);
-      if (!background) return background.error();
-      const auto& coarse = background.value().tooCoarse;
-      tooCoarse.insert(tooCoarse.end(), coarse.begin(), coarse.end());
-      done[f] = coarse.empty();
-      if (coarse.empty()) prepared.patches[f] = std::move(background.value().patch);
-    }
-    if (tooCoarse.empty()) break;
-    std::sort(tooCoarse.begin(), tooCoarse.end());
-    tooCoarse.erase(std::unique(tooCoarse.begin(), tooCoarse.end()), tooCoarse.end());
-    if (!refineEdges(brep, prepared.divided, tooCoarse, minimum) || round + 1 == kMaxDivisionRounds) {
-      return Error{ErrorCode::internal, "Some faces could not be triangulated with any number of divisions of their edges.",
-                   {tooCoarse.begin(), tooCoarse.end()}};
-    }
-  }
-
-  std::vector<std::uint8_t> kinds;
-  for (const BrepEdge& edge : brep.edges) kinds.push_back(static_cast<std::uint8_t>(edge.kind));
-  for (std::size_t f = 0; f < faces; ++f) {
-    FaceProgress faceProgress(progress, f, faces);
-    auto field = computeCrossField(prepared.patches[f], kinds, fieldOptions(options), faceProgress);
-    if (!field) return field.error();
-    prepared.fields.push_back(std::move(field).value());
-  }
-  return prepared;
+Result<PreparedFaces> refineFaces(const TriangleMesh& mesh, const Brep& brep, const MeshOptions& options,
+                                  PreparedFaces prepared, const std::vector<SizeLimit>& limits, Progress& progress) {
+  Preparation preparation(mesh, brep, options, std::move(prepared), progress);
+  preparation.keepBaseSize();
+  return preparation.run(limits);
 }
 
 }  // namespace qmcf

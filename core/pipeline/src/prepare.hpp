@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "qmcf/background/background.hpp"
@@ -13,13 +14,21 @@ namespace qmcf {
 struct PreparedFaces {
   SizeField size;
   DividedEdges divided;
-  std::vector<Patch> patches;      ///< One per face of the B-rep.
-  std::vector<CrossField> fields;  ///< One per patch.
+  std::vector<Patch> patches;          ///< One per face of the B-rep.
+  std::vector<CrossField> fields;      ///< One per patch.
+  std::vector<std::int32_t> minimumDivisions;  ///< Per edge: what its faces asked for, >= 1.
+  std::vector<std::int32_t> changed;   ///< Faces that the last call made anew, ascending.
 };
 
 /// Size field, divided edges, background triangulations and cross fields. Edges whose chords would cut through a face
-/// get more divisions until none does. Errors: those of the stages.
+/// get more divisions until none does; places that the triangulation can't follow get smaller elements.
+/// Errors: those of the stages.
 Result<PreparedFaces> prepareFaces(const TriangleMesh& mesh, const Brep& brep, const MeshOptions& options,
                                    Progress& progress);
+
+/// The same with smaller elements at `limits` and the base size as it was. Faces out of their reach keep all they have,
+/// apart from the numbers of the shared nodes.
+Result<PreparedFaces> refineFaces(const TriangleMesh& mesh, const Brep& brep, const MeshOptions& options,
+                                  PreparedFaces prepared, const std::vector<SizeLimit>& limits, Progress& progress);
 
 }  // namespace qmcf

@@ -158,7 +158,8 @@ std::string toJson(const MeshResult& result) {
                {"quality", toValue(result.quality)},
                {"faces", toArray(result.faces)},
                {"repair", toArray(result.input.repaired.items)},
-               {"fieldSingularities", result.fieldSingularities}});
+               {"fieldSingularities", result.fieldSingularities},
+               {"refinedPlaces", result.refinedPlaces}});
 }
 
 }  // namespace qmcf

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <cstddef>
 
-#include "point_grid.hpp"
 #include "qmcf/sizing/min_heap.hpp"
+#include "qmcf/sizing/point_grid.hpp"
 
 namespace qmcf {
 namespace {
@@ -35,7 +35,8 @@ std::array<Piece, 2> halves(const Piece& piece) {
 
 }  // namespace
 
-SampleGraph::SampleGraph(const EdgeSamples& samples, const Brep& brep) : base_(samples.base) {
+SampleGraph::SampleGraph(const EdgeSamples& samples, const Brep& brep, const std::vector<SizeLimit>& limits)
+    : base_(samples.base) {
   position_.resize(brep.vertices.size());
   size_.assign(brep.vertices.size(), base_);
   ofEdge_.resize(samples.sizes.size());
@@ -56,6 +57,11 @@ SampleGraph::SampleGraph(const EdgeSamples& samples, const Brep& brep) : base_(s
       position_[n] = samples.curves[e].at(sizes.arcLength[i]);
       size_[n] = std::min(size_[n], sizes.value[i]);
     }
+  }
+  firstLimit_ = position_.size();
+  for (const SizeLimit& limit : limits) {
+    position_.push_back(limit.position);
+    size_.push_back(std::min(limit.size, base_));
   }
   neighbors_.resize(position_.size());
   for (std::size_t e = 0; e < samples.sizes.size(); ++e) {
@@ -78,7 +84,12 @@ SampleGraph::SampleGraph(const EdgeSamples& samples, const Brep& brep) : base_(s
     }
     std::sort(own.begin(), own.end());
     own.erase(std::unique(own.begin(), own.end()), own.end());
-    for (const std::int32_t n : own) faces_[static_cast<std::size_t>(n)].push_back(static_cast<std::int32_t>(f));
+  }
+  for (std::size_t i = 0; i < limits.size(); ++i) {
+    ofFace_[static_cast<std::size_t>(limits[i].face)].push_back(static_cast<std::int32_t>(firstLimit_ + i));
+  }
+  for (std::size_t f = 0; f < ofFace_.size(); ++f) {
+    for (const std::int32_t n : ofFace_[f]) faces_[static_cast<std::size_t>(n)].push_back(static_cast<std::int32_t>(f));
   }
 }
 
@@ -176,7 +187,8 @@ double SampleGraph::count(const TriangleMesh& mesh, const Brep& brep, double gra
   return sum;
 }
 
-void SampleGraph::store(EdgeSamples& samples) const {
+void SampleGraph::store(EdgeSamples& samples, std::vector<SizeLimit>& limits) const {
+  for (std::size_t i = 0; i < limits.size(); ++i) limits[i].size = size_[firstLimit_ + i];
   for (std::size_t e = 0; e < samples.sizes.size(); ++e) {
     for (std::size_t i = 0; i < samples.sizes[e].value.size(); ++i) {
       samples.sizes[e].value[i] = size_[static_cast<std::size_t>(ofEdge_[e][i])];

@@ -8,17 +8,17 @@
 
 namespace qmcf {
 
-/// All samples of all edges as a graph; the samples at a B-rep vertex are one node.
+/// All samples of all edges as a graph; the samples at a B-rep vertex are one node. Limits inside faces are nodes too.
 class SampleGraph {
  public:
-  SampleGraph(const EdgeSamples& samples, const Brep& brep);
+  SampleGraph(const EdgeSamples& samples, const Brep& brep, const std::vector<SizeLimit>& limits);
 
   /// Limits the slope of the sizes, along edges and straight across the faces beside them.
   void grade(double gradation);
   /// About how many quads of these sizes the surface takes. \pre grade() was called.
   [[nodiscard]] double count(const TriangleMesh& mesh, const Brep& brep, double gradation) const;
-  /// Copies the sizes to the samples that the graph was made of.
-  void store(EdgeSamples& samples) const;
+  /// Copies the sizes to the samples and the limits that the graph was made of.
+  void store(EdgeSamples& samples, std::vector<SizeLimit>& limits) const;
 
  private:
   [[nodiscard]] double countOnFace(const TriangleMesh& mesh, const BrepFace& face,
@@ -27,6 +27,7 @@ class SampleGraph {
   [[nodiscard]] double farthest(double gradation) const;
 
   double base_;
+  std::size_t firstLimit_ = 0;  ///< The nodes from here on are limits.
   std::vector<Vec3> position_;
   std::vector<double> size_;
   std::vector<std::vector<std::int32_t>> ofEdge_;                        ///< Per edge, per sample: its node.

@@ -92,9 +92,22 @@ Adjacency adjacencyOf(const TriangleMesh& mesh) {
   return adjacency;
 }
 
+/// Lowers the sizes at the vertices of each face to the cones of the limits in it.
+void applyLimits(std::vector<double>& value, const TriangleMesh& mesh, const Brep& brep,
+                 const std::vector<SizeLimit>& limits, double gradation) {
+  for (const SizeLimit& limit : limits) {
+    for (const std::int32_t t : brep.faces[static_cast<std::size_t>(limit.face)].triangles) {
+      for (const std::int32_t vertex : mesh.triangles[static_cast<std::size_t>(t)]) {
+        const auto v = static_cast<std::size_t>(vertex);
+        value[v] = std::min(value[v], limit.size + gradation * distance(limit.position, mesh.positions[v]));
+      }
+    }
+  }
+}
+
 /// Sizes at the vertices of the mesh: those on edges are given, the others are graded along the triangles' edges.
 std::vector<double> vertexSizes(const TriangleMesh& mesh, const Brep& brep, const EdgeSamples& samples,
-                                double gradation) {
+                                const std::vector<SizeLimit>& limits, double gradation) {
   std::vector<double> value(mesh.positions.size(), samples.base);
   for (std::size_t e = 0; e < brep.edges.size(); ++e) {
     const EdgeCurve& curve = samples.curves[e];
@@ -103,6 +116,7 @@ std::vector<double> vertexSizes(const TriangleMesh& mesh, const Brep& brep, cons
       v = std::min(v, interpolate(samples.sizes[e].arcLength, samples.sizes[e].value, curve.arcLength[i]));
     }
   }
+  applyLimits(value, mesh, brep, limits, gradation);
   MinHeap heap;
   for (std::size_t v = 0; v < value.size(); ++v) {
     if (value[v] < samples.base) heap.push(value[v], static_cast<std::int32_t>(v));
@@ -147,6 +161,7 @@ Result<SizeField> computeSizeField(const TriangleMesh& mesh, const Brep& brep, c
   SizeField field;
   field.base = base.value();
   field.gradation = options.gradation;
+  field.limits = options.limits;
   CountSearch search;
   const auto wanted = static_cast<double>(options.quads.value_or(kDefaultQuads));
   for (int attempt = 0; attempt < kAttempts; ++attempt) {
@@ -155,15 +170,15 @@ Result<SizeField> computeSizeField(const TriangleMesh& mesh, const Brep& brep, c
     field.minimumDivisions = limitByTurning(samples, options.divisionsPerTurn, kLowestByTurning * field.base);
     limitByLength(samples, kLowestByLength * field.base);
     limitByGaps(samples, *gaps, kLowestByProximity * field.base);
-    SampleGraph graph(samples, brep);
+    SampleGraph graph(samples, brep, options.limits);
     graph.grade(options.gradation);
-    graph.store(samples);
+    graph.store(samples, field.limits);
     if (!byCount || attempt + 1 == kAttempts) break;
     const double ratio = graph.count(mesh, brep, options.gradation) / wanted;
     if (std::fabs(ratio - 1.0) < kCountTolerance) break;
     field.base = std::clamp(search.next(field.base, ratio), base.value(), reach);
   }
-  field.value = vertexSizes(mesh, brep, samples, options.gradation);
+  field.value = vertexSizes(mesh, brep, samples, field.limits, options.gradation);
   field.edges = std::move(samples.sizes);
   return field;
 }

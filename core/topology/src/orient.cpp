@@ -147,8 +147,13 @@ bool isCavity(const TriangleMesh& mesh, const Orientation& orientation, const Pa
   return depth % 2 == 1;
 }
 
-/// Turns patches so that open ones keep what most of their triangles had and closed ones face outwards.
+/// Turns patches so that open ones keep what most of their triangles had and, in a file that contradicts itself, closed
+/// ones face outwards. In a file that doesn't, the sides are a statement: shells that face inwards are only reported.
 void choosePatchSides(const RepairState& state, Orientation& orientation, RepairItem& inward) {
+  const auto isMixed = [](const Patch& patch) {
+    return patch.turned != 0 && patch.turned != static_cast<std::int64_t>(patch.triangles.size());
+  };
+  const bool contradicts = std::any_of(orientation.patches.begin(), orientation.patches.end(), isMixed);
   for (Patch& patch : orientation.patches) {
     if (2 * patch.turned > static_cast<std::int64_t>(patch.triangles.size())) turnPatch(orientation, patch);
     if (patch.closed) measure(state.mesh, orientation, patch);
@@ -164,8 +169,9 @@ void choosePatchSides(const RepairState& state, Orientation& orientation, Repair
   for (const std::size_t i : turned) {
     Patch& patch = orientation.patches[i];
     note(inward, state.origin[static_cast<std::size_t>(patch.triangles.front())]);
-    turnPatch(orientation, patch);
+    if (contradicts) turnPatch(orientation, patch);
   }
+  if (!contradicts) inward.action = "found and left as they are: all else in the file agrees with them";
 }
 
 }  // namespace

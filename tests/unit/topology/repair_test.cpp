@@ -280,14 +280,18 @@ TEST(Repair, OrientsRandomlyTurnedTrianglesOutward) {
   EXPECT_EQ(countOf(result, "misorientedTriangles"), turned);
 }
 
-TEST(Repair, TurnsInsideOutSolidsButKeepsCavities) {
+TEST(Repair, TurnsShellsOutwardsOnlyInContradictoryFiles) {
   const auto inverted = [](TriangleMesh mesh) {
     for (auto& c : mesh.triangles) std::swap(c[0], c[1]);
     return mesh;
   };
   const TriangleMesh cube = shapes::repaired(shapes::cubeSoup(2));
-  EXPECT_NEAR(volumeOf(run(inverted(cube)).mesh), 1.0, 1e-12);
+  EXPECT_NEAR(volumeOf(run(inverted(cube)).mesh), -1.0, 1e-12);
   EXPECT_EQ(countOf(run(inverted(cube)), "inwardShells"), 1);
+
+  TriangleMesh contradictory = inverted(cube);
+  std::swap(contradictory.triangles[0][0], contradictory.triangles[0][1]);
+  EXPECT_NEAR(volumeOf(run(contradictory).mesh), 1.0, 1e-12);
 
   const TriangleMesh hollow = shapes::join(cube, inverted(shapes::moved(cube, [](const Vec3& p) {
                                              return Vec3{0.25, 0.25, 0.25} + p * 0.5;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "qmcf/base/progress.hpp"
 #include "qmcf/base/result.hpp"
@@ -24,13 +25,14 @@ struct CleanupStatistics {
   std::int64_t refills = 0;         ///< Small cavities that were filled anew.
   std::int64_t collapses = 0;       ///< Quads that were closed along a diagonal.
   std::int64_t pairs = 0;           ///< Pairs of triangles that became quads.
+  std::int64_t cuts = 0;            ///< Quads turned over at a corner that were cut into two good triangles.
 };
 
 struct CleanupResult {
   FaceMesh mesh;
   CleanupStatistics statistics;
   double worstShape = 1.0;          ///< Smallest quadShape() or triangleShape().
-  std::int64_t inverted = 0;        ///< Elements that are turned over; 0 in a valid mesh.
+  std::vector<std::int32_t> degenerate;  ///< Elements of the mesh that no solver takes; none in a valid mesh.
 };
 
 /// Makes a quad-dominant mesh of one face more regular and its elements squarer. Boundary vertices keep their places,

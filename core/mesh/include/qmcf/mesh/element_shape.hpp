@@ -19,6 +19,9 @@ double faceShape(const EditMesh& mesh, FaceId f);
 
 /// Whether a corner of the face is turned over, against the face's own normal or the surface's.
 bool isInverted(const EditMesh& mesh, FaceId f);
+/// Whether an element is unusable whatever surface it lies on: a quad with a scaled Jacobian of 0 or less, a triangle
+/// without area.
+bool isDegenerate(const EditMesh& mesh, FaceId f);
 
 /// The worst faceShape() around a vertex.
 double worstShapeAround(const EditMesh& mesh, VertexId v);

@@ -65,6 +65,7 @@ struct MeshResult {
   QualityReport quality;
   std::vector<FaceReport> faces;
   std::int64_t fieldSingularities = 0;
+  std::int64_t refinedPlaces = 0;      ///< Where elements of the size asked for could not follow the part: smaller there.
 };
 
 /// Repair and B-rep only. Errors: as repair() and recoverBrep().

@@ -6,10 +6,18 @@
 
 #include "qmcf/base/progress.hpp"
 #include "qmcf/base/result.hpp"
+#include "qmcf/base/vec.hpp"
 #include "qmcf/mesh/triangle_mesh.hpp"
 #include "qmcf/topology/brep.hpp"
 
 namespace qmcf {
+
+/// At most this length at a point inside a face.
+struct SizeLimit {
+  std::int32_t face = kNone;
+  Vec3 position;
+  double size = 0.0;  ///< > 0.
+};
 
 /// How large the elements shall be. Lengths are in units of the model.
 struct SizingOptions {
@@ -18,6 +26,7 @@ struct SizingOptions {
       quads;               ///< Number of elements to aim at, 1 to 10,000,000; default 3000 when `size` is unset.
   double gradation = 0.2;  ///< Largest |grad h|, in (0, 1].
   std::int32_t divisionsPerTurn = 8;  ///< Least number of edges in a full turn of a feature edge, >= 3.
+  std::vector<SizeLimit> limits;      ///< Where the elements have to be smaller.
 };
 
 /// Target length along one edge of the B-rep, linear between samples.
@@ -27,18 +36,19 @@ struct EdgeSizes {
 };
 
 /// Target edge length over the repaired mesh. Inside a face it is the lower envelope of the cones that rise with slope
-/// `gradation` from the values on the face's edges and at its vertices, and nowhere above base.
+/// `gradation` from the values on the face's edges, at its vertices and at the limits, and nowhere above base.
 struct SizeField {
   double base = 0.0;             ///< The length asked for, or derived from the count.
   double gradation = 0.2;        ///< Largest |grad h|.
   std::vector<double> value;     ///< Per vertex of the mesh, > 0.
   std::vector<EdgeSizes> edges;  ///< Per edge of the B-rep; finer than the edge's points where these are sparse.
+  std::vector<SizeLimit> limits;               ///< As given, but graded.
   std::vector<std::int32_t> minimumDivisions;  ///< Per edge of the B-rep, >= 1: what its turns ask for.
 };
 
 /// The sizes: `size`, or the root of area / quads; smaller where a feature edge turns (at least divisionsPerTurn
 /// divisions in a full turn, also in a small closed edge), where two edges of a face run close to each other, and on
-/// short edges; not below a tenth of base, except by the divisions of a small closed edge; then graded.
+/// short edges; not below a tenth of base, except by the divisions of a small closed edge and by limits; then graded.
 /// Complexity O(n log n). Errors: invalidOption, cancelled.
 Result<SizeField> computeSizeField(const TriangleMesh& mesh, const Brep& brep, const SizingOptions& options,
                                    Progress& progress);

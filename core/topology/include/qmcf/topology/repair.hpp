@@ -40,8 +40,8 @@ struct RepairedMesh {
 ///   lie on them: tJunctions. Tolerance: 1e-6 of the bounding box' diagonal, or 4 units of the last place of
 ///   coordinates in single precision when these are larger;
 /// - triangles lower than the tolerance removed likewise: sliverTriangles;
-/// - orientation made consistent across two-sided edges: misorientedTriangles; outward for closed components that are
-///   not the wall of a cavity: inwardShells; where a piece has one side only, it stays inconsistent along a cut:
+/// - orientation made consistent across two-sided edges: misorientedTriangles. Where that was needed, closed components
+///   that are not the wall of a cavity are turned outwards, elsewhere they are reported only: inwardShells; where a piece has one side only, it stays inconsistent along a cut:
 ///   oneSidedEdges;
 /// - a non-manifold edge that a sheet meets in its middle halved: loneNonManifoldEdges;
 /// - vertices without triangles dropped.

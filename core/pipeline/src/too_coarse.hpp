@@ -1,0 +1,23 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "qmcf/mesh/face_mesh.hpp"
+#include "qmcf/mesh/quad_mesh.hpp"
+#include "qmcf/quality/quality.hpp"
+#include "qmcf/sizing/size_field.hpp"
+
+namespace qmcf {
+
+/// Half the present length at the middle of each of these elements of a face.
+std::vector<SizeLimit> halvedAt(const FaceMesh& mesh, const std::vector<std::int32_t>& elements, std::int32_t face);
+
+/// Half the present length at the elements for which a joined mesh is not valid: where these are too large for the part,
+/// two walls meet in the same elements or an element lies against the surface.
+std::vector<SizeLimit> halvedWhereInvalid(const QuadMesh& mesh, const QualityReport& quality);
+
+/// The limits that ask for at least `lowest`.
+std::vector<SizeLimit> notBelow(const std::vector<SizeLimit>& limits, double lowest);
+
+}  // namespace qmcf
