@@ -271,7 +271,7 @@ export interface QualityReport {
 export interface FaceReport {
   readonly face: number;
   /** The step of the ladder that worked. */
-  readonly method: 'qmcf' | 'recombined' | 'triangles';
+  readonly method: 'qmcf' | 'recombined' | 'triangles' | 'omitted';
   /** Why the earlier steps did not; empty for the first. */
   readonly reason: string;
   readonly quads: number;

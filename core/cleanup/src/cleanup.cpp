@@ -6,6 +6,7 @@
 #include "qmcf/mesh/edit_mesh.hpp"
 #include "qmcf/mesh/element_shape.hpp"
 #include "relaxation.hpp"
+#include "untangle.hpp"
 
 namespace qmcf {
 namespace {
@@ -93,8 +94,10 @@ Result<CleanupResult> cleanUp(const FaceMesh& mesh, const Patch& patch, const Tr
     work.commit();
     if (largest < kStill) break;
   }
+  const std::int64_t turnedOver = untangle(work, where);
   const std::int64_t cuts = cutInverted(work);
   CleanupResult result{extract(work, mesh), topology.statistics(), 1.0, {}};
+  result.statistics.turnedOver = turnedOver;
   result.statistics.cuts = cuts;
   std::int32_t element = 0;
   for (std::size_t i = 0; i < work.faceCapacity(); ++i) {

@@ -25,6 +25,9 @@ constexpr std::array<double, 3> kShortest{0.4, 0.25, 0.0};
 constexpr std::array<double, 3> kLongest{1.9, 2.8, 6.0};
 constexpr int kPasses = static_cast<int>(kLeastQuad.size());
 constexpr std::size_t kMaxAttempts = 6;
+/// After so many successes per failure the failures are tried again: often enough to catch what became possible, seldom
+/// enough for a front with thousands of them.
+constexpr std::size_t kRetryShare = 16;
 
 class Advance {
  public:
@@ -320,6 +323,7 @@ Result<FrontResult> Advance::run(Progress& progress) {
   std::vector<HalfedgeId> failed;
   int pass = 0;
   bool advanced = false;
+  std::size_t sinceRetry = 0;
   // Every success consumes open area and every failure waits for one; the bound is far above what that takes.
   const std::size_t maxSteps = 2000 + 40 * front_.patch().surface.triangleCount();
   for (std::size_t step = 0; step < maxSteps; ++step) {
@@ -331,7 +335,9 @@ Result<FrontResult> Advance::run(Progress& progress) {
       if (!front_.isFront(h)) continue;
       if (advanceFrom(h, pass)) {
         advanced = true;
-        if (pass > 0 || queue_.size() == 0) {
+        ++sinceRetry;
+        if ((pass > 0 && sinceRetry > failed.size() / kRetryShare) || queue_.size() == 0) {
+          sinceRetry = 0;
           for (const HalfedgeId e : failed) {
             if (front_.isFront(e)) enqueue(e);
           }

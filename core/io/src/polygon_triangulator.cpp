@@ -9,6 +9,8 @@ namespace {
 /// How good a triangle must be to be cut off: twice the area over the longest side squared. Taking the good ones first
 /// leaves fewer needles than taking any.
 constexpr std::array<double, 4> kEarQuality{0.2, 0.02, 1e-5, 1e-12};
+/// Cosine of the angle between the halves of a quadrilateral up to which it counts as flat.
+constexpr double kFlat = 0.9999;
 /// How far outside an ear a corner still blocks it, in units of the polygon's extent: coordinates in files are rounded.
 constexpr std::array<double, 4> kTolerance{1e-9, 1e-9, 1e-12, 0.0};
 
@@ -48,7 +50,11 @@ void PolygonTriangulator::cutQuad(std::span<const std::int32_t> quad,
   const bool bdInside = areaAlong(b, c, d, normal) > 0.0 && areaAlong(b, d, a, normal) > 0.0;
   // The factor keeps rows of rectangles from being cut one way here and the other way there by rounding.
   const bool bdShorter = squaredNorm(d - b) < 0.999 * squaredNorm(c - a);
-  if (acInside == bdInside ? bdShorter : bdInside) {
+  // The diagonal decides what surface a bent quadrilateral is; other programs cut it from its first corner.
+  const Vec3 first = cross(b - a, c - a);
+  const Vec3 second = cross(c - a, d - a);
+  const bool bent = dot(first, second) < kFlat * norm(first) * norm(second);
+  if (acInside == bdInside ? bdShorter && !bent : bdInside) {
     triangles.push_back({quad[1], quad[2], quad[3]});
     triangles.push_back({quad[1], quad[3], quad[0]});
   } else {

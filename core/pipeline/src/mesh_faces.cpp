@@ -1,5 +1,6 @@
 #include "mesh_faces.hpp"
 
+#include <cstddef>
 #include <utility>
 
 #include "qmcf/cleanup/cleanup.hpp"

@@ -18,7 +18,7 @@ struct MeshedFace {
 Result<MeshedFace> meshFace(const TriangleMesh& mesh, const Brep& brep, const PreparedFaces& prepared, std::int32_t face,
                             const MeshOptions& options, Progress& progress);
 
-/// Joins the faces' meshes at the nodes that they share.
+/// Joins the faces' meshes at the nodes that they share. Faces without elements are left out.
 QuadMesh joinFaces(const Brep& brep, const PreparedFaces& prepared, const std::vector<MeshedFace>& faces);
 
 }  // namespace qmcf

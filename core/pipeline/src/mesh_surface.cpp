@@ -2,8 +2,10 @@
 #include "qmcf/pipeline/mesh_surface.hpp"
 
 #include <cmath>
+#include <string>
 #include <utility>
 
+#include "covered_faces.hpp"
 #include "mesh_faces.hpp"
 #include "prepare.hpp"
 #include "too_coarse.hpp"
@@ -21,7 +23,23 @@ MeshOptions withDefaults(MeshOptions options) {
 
 /// How often places where the mesh is not valid get smaller elements, and how small these may be in units of the base.
 constexpr int kMaxRefinements = 4;
-constexpr double kLowestSize = 0.05;
+constexpr double kLowestSize = 0.15;
+/// Two faces between the same edges that are nearer to each other than this, in units of the base, get one mesh.
+constexpr double kTellApart = 0.25;
+
+void turnRound(FaceMesh& mesh) {
+  for (Element& element : mesh.elements) {
+    std::swap(element[1], element[cornerCount(element) - 1]);
+  }
+}
+
+MeshedFace omittedFace(std::int32_t face, std::int32_t below) {
+  MeshedFace omitted;
+  omitted.report.face = face;
+  omitted.report.method = "omitted";
+  omitted.report.reason = "it lies on face " + std::to_string(below) + ", nearer than elements of this size can tell";
+  return omitted;
+}
 
 QualityOptions qualityOptions(const MeshOptions& options, double size) {
   QualityOptions quality;
@@ -100,13 +118,20 @@ Result<MeshResult> meshSurface(const TriangleMesh& input, const MeshOptions& opt
   if (!preparation) return preparation.error();
   PreparedFaces prepared = std::move(preparation).value();
   result.size = prepared.size.base;
+  const CoveredFaces covered = coveredFaces(mesh, brep, kTellApart * result.size);
   std::vector<MeshedFace> faces(brep.faces.size());
   std::size_t fewest = 0;
   for (int attempt = 0;; ++attempt) {
     std::vector<SizeLimit> limits;
     for (const std::int32_t f : prepared.changed) {
+      const std::int32_t below = covered.below[static_cast<std::size_t>(f)];
+      if (below != kNone) {
+        faces[static_cast<std::size_t>(f)] = omittedFace(f, below);
+        continue;
+      }
       auto face = meshFace(mesh, brep, prepared, f, options, progress);
       if (!face) return face.error();
+      if (covered.turned[static_cast<std::size_t>(f)] != 0) turnRound(face.value().mesh);
       faces[static_cast<std::size_t>(f)] = std::move(face).value();
     }
     for (const MeshedFace& face : faces) limits.insert(limits.end(), face.tooCoarse.begin(), face.tooCoarse.end());

@@ -73,6 +73,12 @@ TEST(Polygon, ConvexQuadrilateralIsCutAlongItsShorterDiagonal) {
   EXPECT_EQ(areaVector(model.mesh, 1), (Vec3{0.0, 0.0, 2.0}));
 }
 
+TEST(Polygon, BentQuadrilateralIsCutFromItsFirstCorner) {
+  const ReadModel model = readOk("v 0 0 0\nv 2 1 1\nv 4 0 0\nv 2 -1 1\nf 1 4 3 2\n");
+  EXPECT_EQ(model.mesh.triangles[0], (std::array{0, 3, 2}));
+  EXPECT_EQ(model.mesh.triangles[1], (std::array{0, 2, 1}));
+}
+
 TEST(Polygon, ConcavePolygonsAreCovered) {
   expectTriangulation(kComb);
   expectTriangulation({{0, 0}, {4, 0}, {4, 4}, {3, 4}, {3, 1}, {0, 1}});

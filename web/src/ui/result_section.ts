@@ -115,6 +115,7 @@ const methodNames: Record<FaceReport['method'], string> = {
   qmcf: 'cross field',
   recombined: 'paired triangles',
   triangles: 'triangles only',
+  omitted: 'left out',
 };
 
 /** The faces that another method than the first had to mesh. */

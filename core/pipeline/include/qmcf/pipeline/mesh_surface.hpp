@@ -32,7 +32,7 @@ struct MeshOptions {
 /// How one face was meshed.
 struct FaceReport {
   std::int32_t face = kNone;
-  std::string method;                 ///< "qmcf", "recombined", "triangles": the step of the ladder that worked.
+  std::string method;                 ///< "qmcf", "recombined", "triangles": the step of the ladder that worked; "omitted".
   std::string reason;                 ///< Why the earlier steps did not; empty for the first.
   std::int64_t quads = 0;
   std::int64_t triangles = 0;

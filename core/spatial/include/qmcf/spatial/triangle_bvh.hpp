@@ -29,6 +29,10 @@ class TriangleBvh {
 
   /// True without triangles.
   [[nodiscard]] bool empty() const { return triangles_.empty(); }
+  /// Unit normal of a triangle; zero if it has no area.
+  [[nodiscard]] const Vec3& normal(std::int32_t triangle) const {
+    return normals_[static_cast<std::size_t>(place_[static_cast<std::size_t>(triangle)])];
+  }
   /// The closest point; ties go to the smallest triangle id. \pre !empty()
   [[nodiscard]] ClosestPoint closest(const Vec3& query) const;
   /// As above among triangles whose unit normal n has dot(n, normal) >= minCosine; without any such triangle, as above.

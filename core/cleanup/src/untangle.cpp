@@ -1,0 +1,124 @@
+#include "untangle.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "qmcf/base/math.hpp"
+#include "qmcf/mesh/element_shape.hpp"
+#include "qmcf/spatial/surface_walk.hpp"
+
+namespace qmcf {
+namespace {
+
+constexpr int kSweeps = 6;
+constexpr int kDirections = 8;
+/// How far a vertex is moved, in element sizes.
+constexpr std::array<double, 4> kSteps{0.08, 0.2, 0.4, 0.7};
+/// Cosine of the angle to the surface and scaled Jacobian that are as good as any here.
+constexpr double kUpright = 0.15;
+constexpr double kSquare = 0.15;
+constexpr double kClearlyUpright = 0.5;
+
+/// How an element stands on the face.
+struct Stand {
+  bool turnedOver = false;
+  double penalty = 0.0;  ///< 0 when every corner is upright and well shaped.
+};
+
+/// A corner is turned over when it faces against the surface both below itself and below the element's centre.
+Stand standOf(const EditMesh& mesh, const TriangleBvh& surface, FaceId f) {
+  const auto sides = mesh.sides(f);
+  const std::size_t corners = sides[3].valid() ? 4 : 3;
+  const auto p = [&](std::size_t i) -> const Vec3& { return mesh.position(mesh.origin(sides[i % corners])); };
+  Vec3 centre;
+  for (std::size_t i = 0; i < corners; ++i) centre += p(i) / static_cast<double>(corners);
+  std::optional<Vec3> belowCentre;
+  const Vec3 own = corners == 4 ? normalized(cross(p(2) - p(0), p(3) - p(1))) : Vec3{};
+  Stand stand;
+  for (std::size_t i = 0; i < corners; ++i) {
+    const Vec3 forward = p(i + 1) - p(i);
+    const Vec3 backward = p(i + corners - 1) - p(i);
+    const Vec3 area = cross(forward, backward);
+    const Vec3 normal = normalized(area);
+    // Mostly the smooth normal at the corner tells enough.
+    double upright = dot(normal, mesh.normal(mesh.origin(sides[i])));
+    if (upright < kClearlyUpright) {
+      if (!belowCentre) belowCentre = surface.normal(surface.closest(centre).triangle);
+      upright = dot(normal, *belowCentre);
+    }
+    if (upright < kUpright) {
+      const Vec3 quarter = p(i) + (centre - p(i)) * 0.25;
+      upright = std::max(upright, dot(normal, surface.normal(surface.closest(quarter).triangle)));
+    }
+    stand.turnedOver = stand.turnedOver || upright <= 0.0;
+    stand.penalty += std::max(0.0, kUpright - upright);
+    const double lengths = norm(forward) * norm(backward);
+    const double square = corners == 4 && lengths > 0.0 ? dot(area, own) / lengths : norm(area) / std::max(lengths, 1e-300);
+    stand.penalty += 2.0 * std::max(0.0, kSquare - square);
+  }
+  return stand;
+}
+
+double penaltyAround(const EditMesh& mesh, const TriangleBvh& surface, VertexId v) {
+  double sum = 0.0;
+  mesh.forEachOutgoing(v, [&](HalfedgeId h) { sum += standOf(mesh, surface, mesh.face(h)).penalty; });
+  return sum;
+}
+
+/// Moves the vertex to the best of the places around it. Returns whether that helped.
+bool moveToBest(EditMesh& mesh, const RelaxationTarget& target, VertexId v) {
+  constexpr double kWorthwhile = 0.98;
+  const double before = penaltyAround(mesh, target.face, v);
+  if (!(before > 0.0)) return false;
+  const EditMesh::Vertex start = mesh.vertex(v);
+  const double size = interpolate(target.patch.surface, target.patch.size, start.location);
+  const Vec3 side = mesh.position(mesh.target(mesh.outgoing(v))) - start.position;
+  const Vec3 x = normalized(tangentPart(side, start.normal));
+  const Vec3 y = cross(start.normal, x);
+  EditMesh::Vertex best = start;
+  double least = before;
+  for (const double step : kSteps) {
+    for (int k = 0; k < kDirections; ++k) {
+      const auto turn = math::unitComplex(2.0 * math::kPi * k / kDirections);
+      const Vec3 aim = start.position + (x * turn.real() + y * turn.imag()) * (step * size);
+      const EditMesh::Vertex moved = projectVertex(target, start, aim);
+      mesh.setVertex(v, moved);
+      const double penalty = penaltyAround(mesh, target.face, v);
+      if (penalty >= least) continue;
+      least = penalty;
+      best = moved;
+    }
+  }
+  const bool helps = least < kWorthwhile * before;
+  mesh.setVertex(v, helps ? best : start);
+  return helps;
+}
+
+}  // namespace
+
+std::int64_t untangle(EditMesh& mesh, const RelaxationTarget& target) {
+  std::int64_t found = 0;
+  for (int sweep = 0; sweep < kSweeps; ++sweep) {
+    std::vector<VertexId> vertices;
+    for (std::size_t i = 0; i < mesh.faceCapacity(); ++i) {
+      const FaceId f(i);
+      if (mesh.kind(f) == FaceKind::removed || !standOf(mesh, target.face, f).turnedOver) continue;
+      found += sweep == 0 ? 1 : 0;
+      for (const HalfedgeId h : mesh.sides(f)) {
+        if (h.valid() && !mesh.isBoundary(mesh.origin(h))) vertices.push_back(mesh.origin(h));
+      }
+    }
+    std::sort(vertices.begin(), vertices.end());
+    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+    bool helped = false;
+    for (const VertexId v : vertices) helped = moveToBest(mesh, target, v) || helped;
+    mesh.commit();
+    if (!helped) break;
+  }
+  return found;
+}
+
+}  // namespace qmcf

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <cstdint>
+
+#include "relaxation.hpp"
+
+namespace qmcf {
+
+/// In creases and thin limbs an element can face against the surface although it is well shaped. Moves vertices of such
+/// elements, over the face, to where fewer corners do, by trying places around them; never makes an element unusable.
+/// Returns how many elements were turned over before. Bounded: a few sweeps over those elements alone.
+std::int64_t untangle(EditMesh& mesh, const RelaxationTarget& target);
+
+}  // namespace qmcf

@@ -1,0 +1,88 @@
+#include "covered_faces.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <utility>
+
+#include "qmcf/spatial/triangle_bvh.hpp"
+
+namespace qmcf {
+namespace {
+
+std::vector<std::int32_t> edgesOf(const BrepFace& face) {
+  std::vector<std::int32_t> edges;
+  for (const BrepLoop& loop : face.loops) {
+    for (const Coedge& coedge : loop.coedges) edges.push_back(coedge.edge);
+  }
+  std::sort(edges.begin(), edges.end());
+  return edges;
+}
+
+TriangleBvh treeOf(const TriangleMesh& mesh, const BrepFace& face) {
+  std::vector<std::array<std::int32_t, 3>> triangles;
+  for (const std::int32_t t : face.triangles) triangles.push_back(mesh.triangles[static_cast<std::size_t>(t)]);
+  return {mesh.positions, triangles};
+}
+
+/// Whether the corners and centres of the upper face's triangles, and those of the lower one's, are near the other face.
+bool isNear(const TriangleMesh& mesh, const BrepFace& upper, const BrepFace& lower, double distance) {
+  const TriangleBvh tree = treeOf(mesh, lower);
+  for (const std::int32_t t : upper.triangles) {
+    Vec3 centre;
+    for (const std::int32_t v : mesh.triangles[static_cast<std::size_t>(t)]) {
+      const Vec3& p = mesh.positions[static_cast<std::size_t>(v)];
+      if (tree.closest(p).squaredDistance > distance * distance) return false;
+      centre += p / 3.0;
+    }
+    if (tree.closest(centre).squaredDistance > distance * distance) return false;
+  }
+  return true;
+}
+
+/// For how many of its edges more a face runs against the other faces than along with them; `twin` does not count.
+int agreement(const Brep& brep, std::int32_t face, std::int32_t twin) {
+  int sum = 0;
+  for (const BrepLoop& own : brep.faces[static_cast<std::size_t>(face)].loops) {
+    for (const Coedge& coedge : own.coedges) {
+      for (std::size_t f = 0; f < brep.faces.size(); ++f) {
+        if (static_cast<std::int32_t>(f) == face || static_cast<std::int32_t>(f) == twin) continue;
+        for (const BrepLoop& loop : brep.faces[f].loops) {
+          for (const Coedge& other : loop.coedges) {
+            if (other.edge == coedge.edge) sum += other.reversed != coedge.reversed ? 1 : -1;
+          }
+        }
+      }
+    }
+  }
+  return sum;
+}
+
+}  // namespace
+
+CoveredFaces coveredFaces(const TriangleMesh& mesh, const Brep& brep, double distance) {
+  std::vector<std::pair<std::vector<std::int32_t>, std::int32_t>> byEdges;
+  for (std::size_t f = 0; f < brep.faces.size(); ++f) {
+    if (brep.faces[f].loops.empty()) continue;
+    byEdges.emplace_back(edgesOf(brep.faces[f]), static_cast<std::int32_t>(f));
+  }
+  std::sort(byEdges.begin(), byEdges.end());
+  CoveredFaces covered{std::vector<std::int32_t>(brep.faces.size(), kNone), std::vector<std::uint8_t>(brep.faces.size(), 0)};
+  std::vector<std::int32_t>& below = covered.below;
+  for (std::size_t i = 0; i < byEdges.size(); ++i) {
+    for (std::size_t j = i + 1; j < byEdges.size() && byEdges[j].first == byEdges[i].first; ++j) {
+      std::int32_t kept = byEdges[i].second;
+      std::int32_t omitted = byEdges[j].second;
+      if (below[static_cast<std::size_t>(kept)] != kNone || below[static_cast<std::size_t>(omitted)] != kNone) continue;
+      const BrepFace& first = brep.faces[static_cast<std::size_t>(kept)];
+      const BrepFace& second = brep.faces[static_cast<std::size_t>(omitted)];
+      if (!isNear(mesh, first, second, distance) || !isNear(mesh, second, first, distance)) continue;
+      if (agreement(brep, omitted, kept) > agreement(brep, kept, omitted)) std::swap(kept, omitted);
+      below[static_cast<std::size_t>(omitted)] = kept;
+      covered.turned[static_cast<std::size_t>(kept)] = agreement(brep, kept, omitted) < 0 ? 1 : 0;
+    }
+  }
+  return covered;
+}
+
+}  // namespace qmcf

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "qmcf/mesh/triangle_mesh.hpp"
+#include "qmcf/topology/brep.hpp"
+
+namespace qmcf {
+
+/// What becomes of layers that lie on each other.
+struct CoveredFaces {
+  std::vector<std::int32_t> below;   ///< Per face: the one that stands for it, or kNone.
+  std::vector<std::uint8_t> turned;  ///< Per face: 1 if its elements have to run the other way to fit the faces around.
+};
+
+/// Faces between the same edges as another one and nowhere farther from it than `distance`: two layers that elements
+/// of a larger size can't tell apart, so that only one of them can be meshed: the one whose orientation agrees better with
+/// the faces around.
+CoveredFaces coveredFaces(const TriangleMesh& mesh, const Brep& brep, double distance);
+
+}  // namespace qmcf
