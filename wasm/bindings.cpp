@@ -241,6 +241,7 @@ struct FlatField {
   std::vector<Vec3> normals;
   std::vector<double> sizes;
   std::vector<std::uint8_t> constrained;
+  std::vector<std::uint8_t> removed;
   std::vector<std::int32_t> faces;
   std::vector<Vec3> singularPoints;
   std::vector<Vec3> singularNormals;
@@ -256,7 +257,8 @@ void append(FlatField& flat, const Patch& patch, const CrossField& field) {
     flat.directions.push_back(frame.x * math::cos(angle) + frame.y * math::sin(angle));
     flat.normals.push_back(frame.normal);
     flat.sizes.push_back(patch.size[v]);
-    flat.constrained.push_back(field.constrained[v]);
+    flat.constrained.push_back(static_cast<std::uint8_t>(field.constrained[v]));
+    flat.removed.push_back(field.removed[v]);
     flat.faces.push_back(patch.face);
   }
   for (const Singularity& singularity : field.singularities) {
@@ -278,6 +280,7 @@ val fieldValue(const FieldResult& result) {
   crosses.set("normals", copyOut(flat.normals));
   crosses.set("sizes", copyOut(flat.sizes));
   crosses.set("constrained", copyOut(flat.constrained));
+  crosses.set("removed", copyOut(flat.removed));
   crosses.set("faces", copyOut(flat.faces));
   val singularities = val::object();
   singularities.set("positions", copyOut(flat.singularPoints));

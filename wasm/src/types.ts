@@ -166,8 +166,10 @@ export interface Crosses {
   readonly normals: Float64Array;
   /** Element size wanted there. */
   readonly sizes: Float64Array;
-  /** 0 free, 1 pinned to an edge, 2 pinned to curvature, 3 pinned by the user. */
+  /** What pins the cross: 0 nothing, 1 a boundary, 2 a sharp or 3 a non-manifold edge, 4 curvature, 5 the user. */
   readonly constrained: Uint8Array;
+  /** 1 where a pin to curvature was taken back because it contradicted its surroundings. */
+  readonly removed: Uint8Array;
   /** The face that the cross belongs to. */
   readonly faces: Int32Array;
 }
