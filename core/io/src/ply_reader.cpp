@@ -178,9 +178,8 @@ bool PlyReader::readList(const PlyElement& element, const PlyProperty& property,
   double count = 0.0;
   ValueState state = values_.next(property.countType, count);
   if (state == ValueState::ok && !(count >= 0.0 && count == std::floor(count))) state = ValueState::malformed;
-  if (state == ValueState::ok && count > static_cast<double>(values_.remaining() / values_.leastSize(property.type))) {
-    state = ValueState::ended;
-  }
+  const std::size_t mostValues = values_.remaining() / values_.leastSize(property.type);
+  if (state == ValueState::ok && count > static_cast<double>(mostValues)) state = ValueState::ended;
   for (auto left = state == ValueState::ok ? static_cast<std::uint64_t>(count) : 0; left > 0; --left) {
     double value = 0.0;
     state = values_.next(property.type, value);
