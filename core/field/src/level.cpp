@@ -5,6 +5,7 @@
 
 #include "qmcf/base/math.hpp"
 #include "qmcf/base/random.hpp"
+#include "time_step.hpp"
 
 namespace qmcf {
 namespace {
@@ -137,21 +138,16 @@ Result<NormalisedField> diffuseLevel(const Level& level, const DiffusionSpan& sp
                                      const FieldVector& start, Progress& progress) {
   const double ratio = math::log(span.firstStep / span.lastStep) / math::log(kTimeFactor);
   const int rounds = 1 + static_cast<int>(std::floor(ratio + 0.5));
-  FieldFactor factor;
-  factor.analyzePattern(level.energy);
   NormalisedField now{start, Eigen::VectorXd::Ones(start.size())};
   double time = span.lastStep;
   for (int round = 1; round < rounds; ++round) time *= kTimeFactor;
   for (int round = 0; round < rounds; ++round, time /= kTimeFactor) {
-    FieldMatrix system = time * level.energy;
-    for (Eigen::Index i = 0; i < level.size(); ++i) system.coeffRef(i, i) += level.cells[i];
-    factor.factorize(system);
-    if (factor.info() != Eigen::Success) return unsolvable();
+    TimeStep timeStep(level, time);
+    if (!timeStep.ok()) return unsolvable();
     for (int step = 0; step < schedule.stepsPerLevel; ++step) {
       const double done = (round + static_cast<double>(step) / schedule.stepsPerLevel) / rounds;
       if (!progress.report(Stage::field, span.from + (span.to - span.from) * done)) return cancelledError();
-      FieldVector next = factor.solve(level.cells.cast<Complex>().cwiseProduct(now.field) + time * level.side);
-      NormalisedField after = normalised(std::move(next), now.field);
+      NormalisedField after = normalised(timeStep.after(now.field), now.field);
       const double change = std::sqrt((after.field - now.field).squaredNorm() / static_cast<double>(level.size()));
       now = std::move(after);
       if (change < schedule.tolerance) break;
