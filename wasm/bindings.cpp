@@ -128,14 +128,24 @@ std::optional<Error> assign(bool& option, std::string_view name, const val& give
   return std::nullopt;
 }
 
+std::optional<Error> assign(Mode& option, std::string_view name, const val& given) {
+  const std::string word = given.isString() ? given.as<std::string>() : std::string();
+  if (word != "qmcf" && word != "qmorph") {
+    return wrongOption(name, "\"qmcf\" or \"qmorph\"");
+  }
+  option = word == "qmcf" ? Mode::qmcf : Mode::qmorph;
+  return std::nullopt;
+}
+
 /// Calls visit(name, field) for every option. The structured binding fails to compile when MeshOptions gains a field.
 template <class Visit>
 void forEachOption(MeshOptions& options, Visit visit) {
-  auto& [size, quads, featureAngle, gradation, alignBoundary, alignSharp, alignNonManifold, alignCurvature] =
+  auto& [size, quads, featureAngle, mode, gradation, alignBoundary, alignSharp, alignNonManifold, alignCurvature] =
       options;
   visit("size", size);
   visit("quads", quads);
   visit("featureAngle", featureAngle);
+  visit("mode", mode);
   visit("gradation", gradation);
   visit("alignBoundary", alignBoundary);
   visit("alignSharp", alignSharp);

@@ -95,6 +95,7 @@ test('wrong usage is exit 2', () => {
     ['mesh', 'cube.obj', '-o', 'a.obj', '--size', 'nan'],
     ['mesh', 'cube.obj', '-o', 'a.obj', '--quads', '0'],
     ['mesh', 'cube.obj', '-o', 'a.obj', '--feature-angle', '180'],
+    ['mesh', 'cube.obj', '-o', 'a.obj', '--mode', 'fast'],
     ['mesh', 'cube.obj', '-o', 'a.dwg'],
     ['mesh', 'cube.obj', '-o', 'no/such/folder/a.obj'],
     ['mesh', 'cube.obj', '-o', 'a.obj', '--report', 'no/such/folder/a.json'],

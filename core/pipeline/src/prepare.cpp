@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "qmcf/qmorph/qmorph.hpp"
+
 namespace qmcf {
 namespace {
 
@@ -65,6 +67,9 @@ Result<PreparedFaces> prepareFaces(const TriangleMesh& mesh, const Brep& brep, c
   if (!size) return size.error();
   prepared.size = std::move(size).value();
 
+  BackgroundOptions background;
+  if (options.mode == Mode::qmorph) background.relativeSize = kMorphTriangleSize;
+
   const std::size_t faces = brep.faces.size();
   prepared.patches.resize(faces);
   std::vector<std::int32_t> minimum;
@@ -85,23 +90,25 @@ Result<PreparedFaces> prepareFaces(const TriangleMesh& mesh, const Brep& brep, c
     for (std::size_t f = 0; f < faces; ++f) {
       if (done[f]) continue;
       FaceProgress faceProgress(progress, f, faces);
-      auto background = buildBackground(mesh, brep, static_cast<std::int32_t>(f), prepared.size, prepared.divided,
-                                        BackgroundOptions{}, faceProgress);
-      if (!background) return background.error();
-      const auto& coarse = background.value().tooCoarse;
+      auto built = buildBackground(mesh, brep, static_cast<std::int32_t>(f), prepared.size, prepared.divided,
+                                   background, faceProgress);
+      if (!built) return built.error();
+      const auto& coarse = built.value().tooCoarse;
       tooCoarse.insert(tooCoarse.end(), coarse.begin(), coarse.end());
       done[f] = coarse.empty();
-      if (coarse.empty()) prepared.patches[f] = std::move(background.value().patch);
+      if (coarse.empty()) prepared.patches[f] = std::move(built.value().patch);
     }
     if (tooCoarse.empty()) break;
     std::sort(tooCoarse.begin(), tooCoarse.end());
     tooCoarse.erase(std::unique(tooCoarse.begin(), tooCoarse.end()), tooCoarse.end());
     if (!refineEdges(brep, prepared.divided, tooCoarse, minimum) || round + 1 == kMaxDivisionRounds) {
-      return Error{ErrorCode::internal, "Some faces could not be triangulated with any number of divisions of their edges.",
+      return Error{ErrorCode::internal,
+                   "Some faces could not be triangulated with any number of divisions of their edges.",
                    {tooCoarse.begin(), tooCoarse.end()}};
     }
   }
 
+  if (options.mode == Mode::qmorph) return prepared;
   std::vector<std::uint8_t> kinds;
   for (const BrepEdge& edge : brep.edges) kinds.push_back(static_cast<std::uint8_t>(edge.kind));
   for (std::size_t f = 0; f < faces; ++f) {

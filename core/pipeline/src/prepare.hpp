@@ -14,7 +14,7 @@ struct PreparedFaces {
   SizeField size;
   DividedEdges divided;
   std::vector<Patch> patches;      ///< One per face of the B-rep.
-  std::vector<CrossField> fields;  ///< One per patch.
+  std::vector<CrossField> fields;  ///< One per patch; none in a mode that asks no field.
 };
 
 /// Size field, divided edges, background triangulations and cross fields. Edges whose chords would cut through a face
