@@ -128,14 +128,24 @@ std::optional<Error> assign(bool& option, std::string_view name, const val& give
   return std::nullopt;
 }
 
+std::optional<Error> assign(Mode& option, std::string_view name, const val& given) {
+  const std::string word = given.isString() ? given.as<std::string>() : std::string();
+  if (word != "qmcf" && word != "qmorph") {
+    return wrongOption(name, "\"qmcf\" or \"qmorph\"");
+  }
+  option = word == "qmcf" ? Mode::qmcf : Mode::qmorph;
+  return std::nullopt;
+}
+
 /// Calls visit(name, field) for every option. The structured binding fails to compile when MeshOptions gains a field.
 template <class Visit>
 void forEachOption(MeshOptions& options, Visit visit) {
-  auto& [size, quads, featureAngle, gradation, alignBoundary, alignSharp, alignNonManifold, alignCurvature] =
+  auto& [size, quads, featureAngle, mode, gradation, alignBoundary, alignSharp, alignNonManifold, alignCurvature] =
       options;
   visit("size", size);
   visit("quads", quads);
   visit("featureAngle", featureAngle);
+  visit("mode", mode);
   visit("gradation", gradation);
   visit("alignBoundary", alignBoundary);
   visit("alignSharp", alignSharp);
@@ -241,6 +251,7 @@ struct FlatField {
   std::vector<Vec3> normals;
   std::vector<double> sizes;
   std::vector<std::uint8_t> constrained;
+  std::vector<std::uint8_t> removed;
   std::vector<std::int32_t> faces;
   std::vector<Vec3> singularPoints;
   std::vector<Vec3> singularNormals;
@@ -256,7 +267,8 @@ void append(FlatField& flat, const Patch& patch, const CrossField& field) {
     flat.directions.push_back(frame.x * math::cos(angle) + frame.y * math::sin(angle));
     flat.normals.push_back(frame.normal);
     flat.sizes.push_back(patch.size[v]);
-    flat.constrained.push_back(field.constrained[v]);
+    flat.constrained.push_back(static_cast<std::uint8_t>(field.constrained[v]));
+    flat.removed.push_back(field.removed[v]);
     flat.faces.push_back(patch.face);
   }
   for (const Singularity& singularity : field.singularities) {
@@ -278,6 +290,7 @@ val fieldValue(const FieldResult& result) {
   crosses.set("normals", copyOut(flat.normals));
   crosses.set("sizes", copyOut(flat.sizes));
   crosses.set("constrained", copyOut(flat.constrained));
+  crosses.set("removed", copyOut(flat.removed));
   crosses.set("faces", copyOut(flat.faces));
   val singularities = val::object();
   singularities.set("positions", copyOut(flat.singularPoints));

@@ -95,6 +95,7 @@ test('wrong usage is exit 2', () => {
     ['mesh', 'cube.obj', '-o', 'a.obj', '--size', 'nan'],
     ['mesh', 'cube.obj', '-o', 'a.obj', '--quads', '0'],
     ['mesh', 'cube.obj', '-o', 'a.obj', '--feature-angle', '180'],
+    ['mesh', 'cube.obj', '-o', 'a.obj', '--mode', 'fast'],
     ['mesh', 'cube.obj', '-o', 'a.dwg'],
     ['mesh', 'cube.obj', '-o', 'no/such/folder/a.obj'],
     ['mesh', 'cube.obj', '-o', 'a.obj', '--report', 'no/such/folder/a.json'],
@@ -190,6 +191,32 @@ test('field writes directions and singularities', () => {
   assert.equal(run.status, 0, run.stderr);
   assert.match(run.stdout, /0 singularities/);
   assert.match(get('field.vtu'), /Name="direction" NumberOfComponents="3"/);
+});
+
+test('field writes constraints, magnitudes and the places of singularities', () => {
+  const rim = Array.from({ length: 32 }, (_, i) => [Math.cos((Math.PI * i) / 16), Math.sin((Math.PI * i) / 16)]);
+  put('disk.obj', ['v 0 0 0', ...rim.map(([x, y]) => `v ${x} ${y} 0`), ...rim.map((_, i) => `f 1 ${i + 2} ${((i + 1) % 32) + 2}`)].join('\n'));
+  const run = qmcf('field', 'disk.obj', '-o', 'disk.vtu', '--size', '0.1');
+  assert.equal(run.status, 0, run.stderr);
+  const file = get('disk.vtu');
+  const array = (name) => {
+    const match = new RegExp(`Name="${name}"[^>]*>([^<]*)<`).exec(file);
+    assert.ok(match, name);
+    return match[1].trim().split(/\s+/).map(Number);
+  };
+  const points = Array.from({ length: array('size').length }, (_, i) => array('Points').slice(3 * i, 3 * i + 3));
+  const [constrained, removed, magnitude, types] = ['constrained', 'removed', 'magnitude', 'types'].map(array);
+  const indices = array('singularityIndex').filter((_, cell) => types[cell] === 1);
+  assert.deepEqual(indices, [1, 1, 1, 1]);
+  points.forEach(([x, y], i) => {
+    const singular = i >= points.length - 4;
+    const radius = Math.hypot(x, y);
+    assert.equal(constrained[i], !singular && radius > 0.99 ? 1 : 0);
+    assert.equal(removed[i], 0);
+    if (singular) assert.ok(radius > 0.6 && radius < 0.95 && magnitude[i] === 0);
+    else if (constrained[i]) assert.equal(magnitude[i], 1);
+    else assert.ok(magnitude[i] > 0 && magnitude[i] <= 1);
+  });
 });
 
 test('the output replaces an old file only when it is complete', () => {

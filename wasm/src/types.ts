@@ -11,6 +11,9 @@ export interface TriangleBuffers {
 /** The content of an OBJ, STL or PLY file (the format is found from the content), or a triangle mesh in buffers. */
 export type ModelInput = ArrayBuffer | Uint8Array | TriangleBuffers;
 
+/** Which advancing front makes the quads: by cross field and size field, or the original Q-Morph. */
+export type Mode = 'qmcf' | 'qmorph';
+
 /** All options of a run; the names are those of the C++ struct. The core checks the values. */
 export interface MeshOptions {
   /** Element edge length in units of the model, greater than 0. Excludes {@link MeshOptions.quads}. */
@@ -19,6 +22,8 @@ export interface MeshOptions {
   quads?: number | undefined;
   /** Dihedral angle in degrees, between 0 and 180, from which an edge is sharp. Default 30. */
   featureAngle?: number | undefined;
+  /** Default `qmcf`. */
+  mode?: Mode | undefined;
   /** Largest slope of the size field, above 0 and at most 1. Default 0.2. */
   gradation?: number | undefined;
   /** Field constraint: boundary edges. Default true. */
@@ -36,6 +41,7 @@ export const meshOptionNames = [
   'size',
   'quads',
   'featureAngle',
+  'mode',
   'gradation',
   'alignBoundary',
   'alignSharp',
@@ -166,8 +172,10 @@ export interface Crosses {
   readonly normals: Float64Array;
   /** Element size wanted there. */
   readonly sizes: Float64Array;
-  /** 0 free, 1 pinned to an edge, 2 pinned to curvature, 3 pinned by the user. */
+  /** What pins the cross: 0 nothing, 1 a boundary, 2 a sharp or 3 a non-manifold edge, 4 curvature, 5 the user. */
   readonly constrained: Uint8Array;
+  /** 1 where a pin to curvature was taken back because it contradicted its surroundings. */
+  readonly removed: Uint8Array;
   /** The face that the cross belongs to. */
   readonly faces: Int32Array;
 }
@@ -271,7 +279,7 @@ export interface QualityReport {
 export interface FaceReport {
   readonly face: number;
   /** The step of the ladder that worked. */
-  readonly method: 'qmcf' | 'recombined' | 'triangles' | 'omitted';
+  readonly method: 'qmcf' | 'qmorph' | 'recombined' | 'triangles' | 'omitted';
   /** Why the earlier steps did not; empty for the first. */
   readonly reason: string;
   readonly quads: number;

@@ -19,7 +19,9 @@ struct FieldArrays {
   std::vector<double> second;     ///< The direction a quarter turn on.
   std::vector<double> normal;
   std::vector<double> size;
-  std::vector<std::int32_t> constrained;
+  std::vector<double> magnitude;               ///< Before normalisation; 0 at a singularity.
+  std::vector<std::int32_t> constrained;       ///< FieldPin as a number.
+  std::vector<std::int32_t> removed;           ///< 1 where a pin to curvature was taken back.
   std::vector<std::int32_t> singularityIndex;  ///< Per cell: 0 for a triangle.
   std::vector<std::int32_t> face;              ///< Per cell.
 };
@@ -36,7 +38,9 @@ void appendVertices(VtuGrid& grid, FieldArrays& arrays, const Patch& patch, cons
     append(arrays.second, cross(frame.normal, direction));
     append(arrays.normal, frame.normal);
     arrays.size.push_back(patch.size[v]);
-    arrays.constrained.push_back(field.constrained[v]);
+    arrays.magnitude.push_back(field.magnitude[v]);
+    arrays.constrained.push_back(static_cast<std::int32_t>(field.constrained[v]));
+    arrays.removed.push_back(field.removed[v]);
   }
 }
 
@@ -60,7 +64,9 @@ void appendPatch(VtuGrid& grid, FieldArrays& arrays, const Patch& patch, const C
     const std::array<VertexId, 3> corners = patch.surface.corners(singularity.point.triangle);
     for (std::size_t c = 0; c < 3; ++c) size += singularity.point.barycentric[c] * patch.size[corners[c]];
     arrays.size.push_back(size);
+    arrays.magnitude.push_back(0.0);
     arrays.constrained.push_back(0);
+    arrays.removed.push_back(0);
     arrays.face.push_back(patch.face);
     arrays.singularityIndex.push_back(singularity.index);
   }
@@ -71,11 +77,10 @@ VtuGrid fieldGrid(const FieldResult& result) {
   FieldArrays arrays;
   for (std::size_t i = 0; i < result.patches.size(); ++i)
     appendPatch(grid, arrays, result.patches[i], result.fields[i]);
-  grid.pointData = {{"direction", 3, std::move(arrays.direction)},
-                    {"secondDirection", 3, std::move(arrays.second)},
-                    {"normal", 3, std::move(arrays.normal)},
-                    {"size", 1, std::move(arrays.size)},
-                    {"constrained", 1, std::move(arrays.constrained)}};
+  grid.pointData = {{"direction", 3, std::move(arrays.direction)}, {"secondDirection", 3, std::move(arrays.second)},
+                    {"normal", 3, std::move(arrays.normal)},       {"size", 1, std::move(arrays.size)},
+                    {"magnitude", 1, std::move(arrays.magnitude)}, {"constrained", 1, std::move(arrays.constrained)},
+                    {"removed", 1, std::move(arrays.removed)}};
   grid.cellData = {{"face", 1, std::move(arrays.face)}, {"singularityIndex", 1, std::move(arrays.singularityIndex)}};
   VtuNames names{"faceNames", {}};
   for (const BrepFace& face : result.input.brep.faces) names.values.push_back(face.name);

@@ -1,5 +1,6 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <map>
 #include <new>
 
 #include "commands.hpp"
@@ -38,6 +39,11 @@ void addMesh(CLI::App& app, MeshCommand& command) {
       ->type_name("OUT")
       ->required();
   addFieldOptions(app, command.options);
+  const std::map<std::string, Mode> modes{{"qmcf", Mode::qmcf}, {"qmorph", Mode::qmorph}};
+  app.add_option("--mode", command.options.mode, "Advancing front: qmcf (guided by the field) or qmorph (the original)")
+      ->transform(CLI::CheckedTransformer(modes).description(""))
+      ->type_name("MODE")
+      ->default_str("qmcf");
   app.add_option("--report", command.report, "Write a report")->type_name("FILE.json");
   app.add_flag("--quiet", command.quiet, "Print nothing but errors");
 }

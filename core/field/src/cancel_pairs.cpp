@@ -71,7 +71,7 @@ class Canceller {
   [[nodiscard]] double sizeAlong(HalfedgeId h) const {
     return 0.5 * (patch_.size[surface_.origin(h)] + patch_.size[surface_.target(h)]);
   }
-  [[nodiscard]] bool pinned(VertexId v) const { return conditions_.pinned[v.index()] != 0; }
+  [[nodiscard]] bool pinned(VertexId v) const { return conditions_.isPinned(v); }
   [[nodiscard]] double pull(VertexId v) const { return conditions_.pull[v.value] * matrices_.area[v.value]; }
   [[nodiscard]] Vec3 centre(TriangleId t) const { return positionOf(surface_, {t, {1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0}}); }
 

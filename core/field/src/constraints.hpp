@@ -15,11 +15,12 @@ void pinBoundary(const Patch& patch, const std::vector<std::uint8_t>& edgeKinds,
 void pinStrokes(const Patch& patch, const IdMap<VertexId, TangentFrame>& frames,
                 const std::vector<FieldStroke>& strokes, FieldConditions& conditions);
 
-/// Whether curvature has a say: not where the boundary lies dense enough to steer the field by itself (QuadWild's rule,
-/// B3 of docs/algorithm.md).
-bool curvatureMatters(const Patch& patch, const FieldMatrices& matrices);
+/// Length of the boundary over the root of the area: where it is large the boundary steers the field by itself
+/// (QuadWild's rule, B3 of docs/algorithm.md).
+double boundaryDensity(const Patch& patch, const FieldMatrices& matrices);
 
-/// Lets the principal directions pull at free vertices; with options.mask only where no pinned vertex is a neighbour.
+/// Lets the principal directions pull; with options.mask only where no vertex is pinned, nor any neighbour (alpha of
+/// Eq. 4). Replaces the pulls that there were.
 void pullToCurvature(const Patch& patch, const CurvatureField& curvature, const FieldOptions& options,
                      FieldConditions& conditions);
 
@@ -27,9 +28,10 @@ void pullToCurvature(const Patch& patch, const CurvatureField& curvature, const 
 void pinCurvature(const Patch& patch, const CurvatureField& curvature, const FieldOptions& options,
                   FieldConditions& conditions);
 
-/// Frees vertices pinned to curvature where the pinned crosses contradict each other: the corners of a triangle around
-/// which they turn, and the ends of an edge along which they differ by more than kLargestTurn (section 3.2.3).
-/// Returns how many were freed; 0 is a fixed point.
-std::int32_t removeInconsistentPins(const Patch& patch, const Connection& connection, FieldConditions& conditions);
+/// Frees vertices pinned to curvature where crosses contradict each other: the corners of a triangle around which they
+/// turn, and the ends of an edge along which they differ by more than kLargestTurn (section 3.2.3). Only vertices that
+/// are `known` count: the pinned ones before a solve, all of them after it. Returns how many were freed.
+std::int32_t removeInconsistentPins(const Patch& patch, const Connection& connection, const FieldVector& crosses,
+                                    const std::vector<std::uint8_t>& known, FieldConditions& conditions);
 
 }  // namespace qmcf

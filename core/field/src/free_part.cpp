@@ -2,9 +2,9 @@
 
 namespace qmcf {
 
-FreePart::FreePart(const std::vector<std::uint8_t>& pinned) : unknown_(pinned.size(), kNone) {
+FreePart::FreePart(const std::vector<FieldPin>& pinned) : unknown_(pinned.size(), kNone) {
   for (std::size_t v = 0; v < pinned.size(); ++v) {
-    if (pinned[v] != 0) continue;
+    if (pinned[v] != FieldPin::none) continue;
     unknown_[v] = static_cast<int>(vertex_.size());
     vertex_.push_back(static_cast<Eigen::Index>(v));
   }

@@ -26,7 +26,7 @@ class FieldFactor : public Eigen::SimplicialLDLT<FieldMatrix, Eigen::Lower, Eige
 /// The unknowns of a system some of whose entries are given.
 class FreePart {
  public:
-  explicit FreePart(const std::vector<std::uint8_t>& pinned);
+  explicit FreePart(const std::vector<FieldPin>& pinned);
 
   [[nodiscard]] Eigen::Index size() const { return static_cast<Eigen::Index>(vertex_.size()); }
   [[nodiscard]] Eigen::Index vertex(Eigen::Index unknown) const { return vertex_[static_cast<std::size_t>(unknown)]; }

@@ -5,6 +5,7 @@
 
 #include "qmcf/base/math.hpp"
 #include "qmcf/base/random.hpp"
+#include "time_step.hpp"
 
 namespace qmcf {
 namespace {
@@ -128,36 +129,31 @@ Result<FieldVector> solveLevel(const Level& level) {
       field /= field.norm();
     }
   }
-  normaliseCrosses(field, ones);
-  return field;
+  return normalised(std::move(field), ones).field;
 }
 
 double firstTimeStep(const Level& level, double last) { return std::max(last, 0.04 / math::kPi * level.cells.sum()); }
 
-Result<Done> diffuseLevel(const Level& level, const DiffusionSpan& span, const DiffusionSchedule& schedule,
-                          FieldVector& field, Progress& progress) {
+Result<NormalisedField> diffuseLevel(const Level& level, const DiffusionSpan& span, const DiffusionSchedule& schedule,
+                                     const FieldVector& start, Progress& progress) {
   const double ratio = math::log(span.firstStep / span.lastStep) / math::log(kTimeFactor);
   const int rounds = 1 + static_cast<int>(std::floor(ratio + 0.5));
-  FieldFactor factor;
-  factor.analyzePattern(level.energy);
+  NormalisedField now{start, Eigen::VectorXd::Ones(start.size())};
   double time = span.lastStep;
   for (int round = 1; round < rounds; ++round) time *= kTimeFactor;
   for (int round = 0; round < rounds; ++round, time /= kTimeFactor) {
-    FieldMatrix system = time * level.energy;
-    for (Eigen::Index i = 0; i < level.size(); ++i) system.coeffRef(i, i) += level.cells[i];
-    factor.factorize(system);
-    if (factor.info() != Eigen::Success) return unsolvable();
+    TimeStep timeStep(level, time);
+    if (!timeStep.ok()) return unsolvable();
     for (int step = 0; step < schedule.stepsPerLevel; ++step) {
       const double done = (round + static_cast<double>(step) / schedule.stepsPerLevel) / rounds;
       if (!progress.report(Stage::field, span.from + (span.to - span.from) * done)) return cancelledError();
-      FieldVector next = factor.solve(level.cells.cast<Complex>().cwiseProduct(field) + time * level.side);
-      normaliseCrosses(next, field);
-      const double change = std::sqrt((next - field).squaredNorm() / static_cast<double>(level.size()));
-      field.swap(next);
+      NormalisedField after = normalised(timeStep.after(now.field), now.field);
+      const double change = std::sqrt((after.field - now.field).squaredNorm() / static_cast<double>(level.size()));
+      now = std::move(after);
       if (change < schedule.tolerance) break;
     }
   }
-  return Done{};
+  return now;
 }
 
 }  // namespace qmcf

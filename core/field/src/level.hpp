@@ -43,9 +43,9 @@ struct DiffusionSpan {
   double to = 1.0;
 };
 
-/// Diffuses and renormalises.
-Result<Done> diffuseLevel(const Level& level, const DiffusionSpan& span, const DiffusionSchedule& schedule,
-                          FieldVector& field, Progress& progress);
+/// Diffuses and renormalises, from crosses of length 1.
+Result<NormalisedField> diffuseLevel(const Level& level, const DiffusionSpan& span, const DiffusionSchedule& schedule,
+                                     const FieldVector& start, Progress& progress);
 
 /// What the diffusion starts with: a fifth of the radius of the disk of the same area.
 double firstTimeStep(const Level& level, double last);

@@ -21,6 +21,17 @@ double smallShift(const FieldMatrices& matrices) {
   return kShift * std::max(matrices.energy.diagonal().real().sum(), 1e-300) / matrices.area.sum();
 }
 
+NormalisedField onlyPins(const FieldConditions& conditions) {
+  return {conditions.value, Eigen::VectorXd::Ones(conditions.value.size())};
+}
+
+NormalisedField withPins(const FieldConditions& conditions, const FreePart& free, const NormalisedField& unknowns) {
+  NormalisedField all = onlyPins(conditions);
+  free.insert(unknowns.field, all.field);
+  for (Eigen::Index i = 0; i < free.size(); ++i) all.magnitude[free.vertex(i)] = unknowns.magnitude[i];
+  return all;
+}
+
 /// Unknowns up to which the whole diffusion is done in full size.
 constexpr Eigen::Index kDirectSize = 4000;
 /// Length of the last time step on clusters, in units of their spacing.
@@ -29,25 +40,29 @@ constexpr double kClusterReach = 2.5;
 }  // namespace
 
 FieldConditions::FieldConditions(std::size_t vertexCount)
-    : pinned(vertexCount, 0),
+    : pinned(vertexCount, FieldPin::none),
       removed(vertexCount, 0),
       value(FieldVector::Zero(static_cast<Eigen::Index>(vertexCount))),
       pull(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(vertexCount))),
       guide(FieldVector::Zero(static_cast<Eigen::Index>(vertexCount))) {}
 
-void normaliseCrosses(FieldVector& field, const FieldVector& fallback) {
-  for (Eigen::Index i = 0; i < field.size(); ++i) {
-    const double length = std::sqrt(std::norm(field[i]));
+NormalisedField normalised(FieldVector field, const FieldVector& fallback) {
+  NormalisedField result{std::move(field), Eigen::VectorXd(fallback.size())};
+  for (Eigen::Index i = 0; i < fallback.size(); ++i) {
+    const double length = std::sqrt(std::norm(result.field[i]));
+    result.magnitude[i] = length;
     if (length > 1e-140) {
-      field[i] /= length;
+      result.field[i] /= length;
     } else {
-      field[i] = fallback[i];
+      result.field[i] = fallback[i];
     }
   }
+  return result;
 }
 
 bool FieldConditions::any() const {
-  return pull.maxCoeff() > 0.0 || std::any_of(pinned.begin(), pinned.end(), [](auto p) { return p != 0; });
+  return pull.maxCoeff() > 0.0 ||
+         std::any_of(pinned.begin(), pinned.end(), [](FieldPin p) { return p != FieldPin::none; });
 }
 
 Result<FieldVector> solveEliminated(const FieldMatrices& matrices, const FieldConditions& conditions) {
@@ -102,25 +117,22 @@ Result<Smoothest> solveSmoothest(const FieldMatrices& matrices, Progress& progre
   return result;
 }
 
-Result<Done> diffuse(const FieldMatrices& matrices, const FieldConditions& conditions,
-                     const DiffusionSchedule& schedule, FieldVector& field, Progress& progress) {
+Result<NormalisedField> diffuse(const FieldMatrices& matrices, const FieldConditions& conditions,
+                                const DiffusionSchedule& schedule, const FieldVector& field, Progress& progress) {
   const FreePart free(conditions.pinned);
-  if (free.size() == 0) return Done{};
+  if (free.size() == 0) return onlyPins(conditions);
   const Level level = finestLevel(matrices, conditions, free);
   const double last = schedule.finalLength * schedule.finalLength;
-  FieldVector unknowns = free.restrict(field);
-  const Result<Done> done =
-      diffuseLevel(level, {firstTimeStep(level, last), last, 0.4, 0.9}, schedule, unknowns, progress);
-  if (!done) return done.error();
-  free.insert(unknowns, field);
-  return Done{};
+  const Result<NormalisedField> unknowns =
+      diffuseLevel(level, {firstTimeStep(level, last), last, 0.4, 0.9}, schedule, free.restrict(field), progress);
+  if (!unknowns) return unknowns.error();
+  return withPins(conditions, free, unknowns.value());
 }
 
-Result<FieldVector> solveDiffused(const FieldMatrices& matrices, const FieldConditions& conditions,
-                                  const DiffusionSchedule& schedule, Progress& progress) {
+Result<NormalisedField> solveDiffused(const FieldMatrices& matrices, const FieldConditions& conditions,
+                                      const DiffusionSchedule& schedule, Progress& progress) {
   const FreePart free(conditions.pinned);
-  FieldVector field = conditions.value;
-  if (free.size() == 0) return field;
+  if (free.size() == 0) return onlyPins(conditions);
   const Level finest = finestLevel(matrices, conditions, free);
   std::vector<Clusters> coarser;
   const auto level = [&](std::size_t depth) -> const Level& { return depth == 0 ? finest : coarser[depth - 1].level; };
@@ -131,9 +143,9 @@ Result<FieldVector> solveDiffused(const FieldMatrices& matrices, const FieldCond
     coarser.push_back(std::move(next));
   }
   std::size_t depth = coarser.size();
-  Result<FieldVector> unknowns = solveLevel(level(depth));
-  if (!unknowns) return unknowns.error();
-  FieldVector& u = unknowns.value();
+  Result<FieldVector> start = solveLevel(level(depth));
+  if (!start) return start.error();
+  FieldVector u = std::move(start).value();
   // Each level takes about four times as long as the coarser one before.
   const auto at = [&](std::size_t begun) {
     return begun > coarser.size() ? 0.2 : 0.2 + 0.7 / static_cast<double>(std::int64_t{1} << (2 * begun));
@@ -142,14 +154,12 @@ Result<FieldVector> solveDiffused(const FieldMatrices& matrices, const FieldCond
     const double reach =
         depth == 0 ? schedule.finalLength : std::max(schedule.finalLength, kClusterReach * level(depth).spacing());
     const double first = depth == coarser.size() ? firstTimeStep(level(depth), reach * reach) : reach * reach;
-    const Result<Done> done =
+    const Result<NormalisedField> diffused =
         diffuseLevel(level(depth), {first, reach * reach, at(depth + 1), at(depth)}, schedule, u, progress);
-    if (!done) return done.error();
-    if (depth == 0) break;
-    u = coarser[depth - 1].spread(u);
+    if (!diffused) return diffused.error();
+    if (depth == 0) return withPins(conditions, free, diffused.value());
+    u = coarser[depth - 1].spread(diffused.value().field);
   }
-  free.insert(u, field);
-  return field;
 }
 
 }  // namespace qmcf

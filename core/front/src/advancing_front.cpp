@@ -9,6 +9,7 @@
 #include "qmcf/front/extract.hpp"
 #include "qmcf/front/front_mesh.hpp"
 #include "qmcf/front/leftover.hpp"
+#include "qmcf/front/loops.hpp"
 #include "qmcf/front/quad_formation.hpp"
 #include "qmcf/front/recovery.hpp"
 #include "qmcf/front/seam.hpp"
@@ -47,8 +48,6 @@ class Advance {
   bool tryQuad(HalfedgeId base, const SideProposal& left, const SideProposal& right, int pass);
   VertexId realize(HalfedgeId sector, const SideProposal& side);
   bool fitsSize(VertexId a, VertexId b, int pass) const;
-  int oddLoops(const std::vector<HalfedgeId>& edges) const;
-  std::vector<HalfedgeId> frontEdgesAt(VertexId v) const;
   void finishQuad(FaceId f, int level);
   void closeSmallLoops(const std::vector<HalfedgeId>& edges, int pass);
   void relaxAround(const std::vector<VertexId>& vertices);
@@ -72,44 +71,16 @@ void Advance::enqueue(HalfedgeId h) {
   queue_.push(h, seam ? -1 : level(h), open);
 }
 
-std::vector<HalfedgeId> Advance::frontEdgesAt(VertexId v) const {
-  std::vector<HalfedgeId> edges;
-  front_.mesh().forEachOutgoing(v, [&](HalfedgeId h) {
-    if (!front_.isFront(h)) return;
-    edges.push_back(h);
-    edges.push_back(front_.previousFront(h));
-  });
-  return edges;
-}
-
 void Advance::enqueueAround(const std::vector<VertexId>& vertices) {
   std::vector<HalfedgeId> edges;
   for (const VertexId v : vertices) {
     if (!mesh().alive(v)) continue;
-    const auto at = frontEdgesAt(v);
+    const auto at = frontEdgesAt(front_, v);
     edges.insert(edges.end(), at.begin(), at.end());
   }
   std::sort(edges.begin(), edges.end());
   edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
   for (const HalfedgeId h : edges) enqueue(h);
-}
-
-int Advance::oddLoops(const std::vector<HalfedgeId>& edges) const {
-  std::vector<HalfedgeId> seen;
-  int odd = 0;
-  for (const HalfedgeId h : edges) {
-    if (!front_.isFront(h)) continue;
-    HalfedgeId smallest = h;
-    int length = 1;
-    for (HalfedgeId e = front_.nextFront(h); e != h; e = front_.nextFront(e)) {
-      smallest = std::min(smallest, e);
-      ++length;
-    }
-    if (std::find(seen.begin(), seen.end(), smallest) != seen.end()) continue;
-    seen.push_back(smallest);
-    odd += length % 2;
-  }
-  return odd;
 }
 
 VertexId Advance::realize(HalfedgeId sector, const SideProposal& side) {
@@ -160,7 +131,7 @@ bool Advance::advanceFrom(HalfedgeId h, int pass) {
     relaxAround({kept});
     m.commit();
     std::vector<VertexId> around{kept};
-    for (const HalfedgeId e : frontEdgesAt(kept)) {
+    for (const HalfedgeId e : frontEdgesAt(front_, kept)) {
       around.push_back(m.origin(e));
       around.push_back(m.target(e));
     }
@@ -208,10 +179,10 @@ bool Advance::tryQuad(HalfedgeId base, const SideProposal& left, const SidePropo
   if (joins) {
     for (const VertexId v : {left.existing, right.existing}) {
       if (!v.valid()) continue;
-      const auto at = frontEdgesAt(v);
+      const auto at = frontEdgesAt(front_, v);
       touched.insert(touched.end(), at.begin(), at.end());
     }
-    oddBefore = oddLoops(touched);
+    oddBefore = oddLoops(front_, touched);
   }
 
   const std::size_t mark = m.mark();
@@ -239,10 +210,10 @@ bool Advance::tryQuad(HalfedgeId base, const SideProposal& left, const SidePropo
   if (joins) {
     std::vector<HalfedgeId> edges;
     for (const VertexId v : {a, b, c, d}) {
-      const auto at = frontEdgesAt(v);
+      const auto at = frontEdgesAt(front_, v);
       edges.insert(edges.end(), at.begin(), at.end());
     }
-    if (pass + 1 < kPasses && oddLoops(edges) > oddBefore) return undo();
+    if (pass + 1 < kPasses && oddLoops(front_, edges) > oddBefore) return undo();
     ++statistics_.collisions;
   }
   makeDelaunay(front_, {a, b, c, d});

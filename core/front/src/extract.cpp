@@ -20,7 +20,8 @@ FaceMesh extract(const FrontMesh& front) {
     if (mesh.kind(f) == FaceKind::removed) continue;
     Element element{kNone, kNone, kNone, kNone};
     HalfedgeId h = mesh.halfedge(f);
-    for (int c = 0; c < mesh.cornerCount(f); ++c, h = mesh.next(h)) element[static_cast<std::size_t>(c)] = index[mesh.origin(h)];
+    for (int c = 0; c < mesh.cornerCount(f); ++c, h = mesh.next(h))
+      element[static_cast<std::size_t>(c)] = index[mesh.origin(h)];
     result.elements.push_back(element);
   }
   return result;

@@ -1,6 +1,7 @@
 #include "qmcf/front/seam.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "qmcf/front/quad_formation.hpp"
 #include "qmcf/front/recovery.hpp"
@@ -47,6 +48,34 @@ VertexId closeSeam(FrontMesh& front, HalfedgeId h, double least) {
     }
   }
   mesh.rollback(mark);
+  return {};
+}
+
+VertexId closeDiamond(FrontMesh& front, const std::vector<VertexId>& corners, double least) {
+  EditMesh& mesh = front.mesh();
+  constexpr double kAnyShape = -10.0;
+  const std::size_t mark = mesh.mark();
+  for (std::size_t first = 0; first < 2; ++first) {
+    const auto quad = formElement(front, corners, kAnyShape);
+    if (!quad) return {};
+    VertexId kept = corners[first];
+    VertexId gone = corners[first + 2];
+    if (front.isFixed(gone)) std::swap(kept, gone);
+    HalfedgeId from;
+    HalfedgeId to;
+    for (const HalfedgeId side : mesh.sides(*quad)) {
+      if (mesh.origin(side) == kept) from = side;
+      if (mesh.origin(side) == gone) to = side;
+    }
+    const HalfedgeId diagonal = mesh.connected(kept, gone) ? HalfedgeId() : mesh.cut(from, to);
+    if (diagonal.valid() && mesh.canCollapse(diagonal)) {
+      const Vec3 middle = (mesh.position(kept) + mesh.position(gone)) * 0.5;
+      mesh.collapse(diagonal);
+      if (!front.isFixed(kept)) mesh.setVertex(kept, front.vertexNear(mesh.vertex(kept).location, middle));
+      if (worstShapeAround(mesh, kept) >= least) return kept;
+    }
+    mesh.rollback(mark);
+  }
   return {};
 }
 

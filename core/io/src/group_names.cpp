@@ -64,13 +64,13 @@ std::int32_t faceOf(const QuadMesh& mesh, std::size_t element) {
 std::size_t faceCount(const QuadMesh& mesh) {
   std::int32_t last = kNone;
   for (std::size_t e = 0; e < mesh.elements.size(); ++e) last = std::max(last, faceOf(mesh, e));
-  return static_cast<std::size_t>(last + 1);
+  return last == kNone ? 0 : static_cast<std::size_t>(last) + 1;
 }
 
 std::size_t edgeCount(const QuadMesh& mesh) {
   std::int32_t last = kNone;
   for (const FeatureSegment& segment : mesh.featureSegments) last = std::max(last, segment.edge);
-  return static_cast<std::size_t>(last + 1);
+  return last == kNone ? 0 : static_cast<std::size_t>(last) + 1;
 }
 
 std::vector<std::vector<FeatureSegment>> segmentsByEdge(const QuadMesh& mesh) {

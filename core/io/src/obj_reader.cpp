@@ -1,5 +1,5 @@
-// Wavefront OBJ: vertices, polygons (v, v/vt, v//vn, v/vt/vn, negative indices), polylines, groups, objects, materials.
-// Everything else is passed over.
+// Wavefront OBJ: vertices, also with x and y alone; polygons (v, v/vt, v//vn, v/vt/vn, negative indices), polylines,
+// groups, objects, materials. Everything else is passed over.
 
 #include <array>
 #include <map>
@@ -58,9 +58,11 @@ bool ObjReader::readVertex() {
     return false;
   }
   std::array<double, 3> xyz{};
-  for (double& coordinate : xyz) {
-    const NumberState state = cursor_.real(coordinate);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const NumberState state = cursor_.real(xyz[axis]);
     if (state == NumberState::ok) continue;
+    // Plane meshes are also written with x and y alone.
+    if (axis == 2 && (state == NumberState::missing || cursor_.peek() == '#')) break;
     if (state == NumberState::missing) {
       return fail(ErrorCode::malformedInput, "a vertex needs three coordinates; complete the line or export again.");
     }

@@ -1,109 +1,21 @@
-// Polygon File Format: ASCII and binary of both byte orders, any types, any elements and properties. Vertices, faces
-// and edges are kept, and an integer property of the faces that numbers regions becomes their label.
+// Polygon File Format: ASCII and binary of both byte orders, any types, any elements and properties. Vertices, faces,
+// triangle strips and edges are kept, and an integer property of the faces that numbers regions becomes their label.
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <optional>
 #include <string>
 #include <utility>
 
 #include "ply_header.hpp"
+#include "ply_values.hpp"
 #include "polygon_soup.hpp"
-#include "qmcf/base/bits.hpp"
 #include "text_cursor.hpp"
 
 namespace qmcf {
 namespace {
-
-enum class ValueState : std::uint8_t { ok, malformed, ended };
-
-/// Reads the values of the data one by one, whatever their encoding. Infinite and NaN values are passed on.
-class ValueReader {
- public:
-  ValueReader(std::string_view bytes, const PlyHeader& header)
-      : encoding_(header.encoding), data_(bytes.substr(header.size)), cursor_(data_), firstLine_(header.lines) {}
-
-  ValueState next(PlyType type, double& value) {
-    return encoding_ == PlyEncoding::ascii ? nextAscii(value) : nextBinary(type, value);
-  }
-  /// Least bytes that a value takes.
-  [[nodiscard]] std::size_t leastSize(PlyType type) const {
-    return encoding_ == PlyEncoding::ascii ? 2 : plyTypeSize(type);
-  }
-  [[nodiscard]] std::size_t remaining() const {
-    // One more: the last value of a text needs no separator.
-    return encoding_ == PlyEncoding::ascii ? cursor_.remaining() + 1 : data_.size() - offset_;
-  }
-  [[nodiscard]] double fraction() const {
-    return data_.empty() ? 1.0 : 1.0 - static_cast<double>(remaining()) / static_cast<double>(data_.size() + 1);
-  }
-  /// "Line 7" of a text; nothing in binary data.
-  [[nodiscard]] std::string where() const {
-    return encoding_ == PlyEncoding::ascii ? "Line " + std::to_string(firstLine_ + cursor_.line()) + ": " : "";
-  }
-
- private:
-  ValueState nextAscii(double& value) {
-    cursor_.skipSpace();
-    switch (cursor_.real(value)) {
-      case NumberState::ok:
-        return ValueState::ok;
-      case NumberState::missing:
-        return ValueState::ended;
-      case NumberState::nonFinite:
-        value = std::numeric_limits<double>::quiet_NaN();
-        cursor_.advance(cursor_.token().size());
-        return ValueState::ok;
-      case NumberState::malformed:
-        break;
-    }
-    return ValueState::malformed;
-  }
-  ValueState nextBinary(PlyType type, double& value);
-
-  PlyEncoding encoding_;
-  std::string_view data_;
-  TextCursor cursor_;
-  std::size_t offset_ = 0;
-  std::int64_t firstLine_;
-};
-
-ValueState ValueReader::nextBinary(PlyType type, double& value) {
-  const std::size_t size = plyTypeSize(type);
-  if (data_.size() - offset_ < size) return ValueState::ended;
-  std::uint64_t bits = 0;
-  for (std::size_t i = 0; i < size; ++i) {
-    const std::size_t place = encoding_ == PlyEncoding::bigEndian ? i : size - 1 - i;
-    bits = bits << 8U | static_cast<unsigned char>(data_[offset_ + place]);
-  }
-  offset_ += size;
-  switch (type) {
-    case PlyType::int8:
-      value = static_cast<double>(static_cast<std::int8_t>(bits));
-      break;
-    case PlyType::int16:
-      value = static_cast<double>(static_cast<std::int16_t>(bits));
-      break;
-    case PlyType::int32:
-      value = static_cast<double>(static_cast<std::int32_t>(bits));
-      break;
-    case PlyType::float32:
-      value = static_cast<double>(bitCast<float>(static_cast<std::uint32_t>(bits)));
-      break;
-    case PlyType::float64:
-      value = bitCast<double>(bits);
-      break;
-    case PlyType::uint8:
-    case PlyType::uint16:
-    case PlyType::uint32:
-      value = static_cast<double>(bits);
-      break;
-  }
-  return ValueState::ok;
-}
 
 /// One element's values: scalars by property, and the values of the one list that is wanted.
 struct Row {
@@ -124,6 +36,7 @@ class PlyReader {
   bool readList(const PlyElement& element, const PlyProperty& property, std::uint64_t row, std::vector<double>* list);
   bool addVertex(const Row& row, std::uint64_t index, const std::array<std::size_t, 3>& xyz);
   bool addFace(const Row& row, std::uint64_t index, std::optional<std::size_t> label);
+  bool addStrips(const Row& row, std::uint64_t index);
   bool addEdge(const Row& row, const PlyElement& element);
   void labelFace(double value);
   bool checkIndices();
@@ -134,7 +47,7 @@ class PlyReader {
   }
 
   PlyHeader header_;
-  ValueReader values_;
+  PlyValueReader values_;
   Progress& progress_;
   PolygonSoup soup_;
   std::map<double, std::int32_t> labelIds_;
@@ -176,19 +89,18 @@ std::string elementName(const PlyElement& element, std::uint64_t row) {
 bool PlyReader::readList(const PlyElement& element, const PlyProperty& property, std::uint64_t row,
                          std::vector<double>* list) {
   double count = 0.0;
-  ValueState state = values_.next(property.countType, count);
-  if (state == ValueState::ok && !(count >= 0.0 && count == std::floor(count))) state = ValueState::malformed;
-  if (state == ValueState::ok && count > static_cast<double>(values_.remaining() / values_.leastSize(property.type))) {
-    state = ValueState::ended;
-  }
-  for (auto left = state == ValueState::ok ? static_cast<std::uint64_t>(count) : 0; left > 0; --left) {
+  PlyValueState state = values_.next(property.countType, count);
+  if (state == PlyValueState::ok && !(count >= 0.0 && count == std::floor(count))) state = PlyValueState::malformed;
+  const std::size_t mostValues = values_.remaining() / values_.leastSize(property.type);
+  if (state == PlyValueState::ok && count > static_cast<double>(mostValues)) state = PlyValueState::ended;
+  for (auto left = state == PlyValueState::ok ? static_cast<std::uint64_t>(count) : 0; left > 0; --left) {
     double value = 0.0;
     state = values_.next(property.type, value);
-    if (state != ValueState::ok) break;
+    if (state != PlyValueState::ok) break;
     if (list != nullptr) list->push_back(value);
   }
-  if (state == ValueState::ok) return true;
-  if (state == ValueState::ended) {
+  if (state == PlyValueState::ok) return true;
+  if (state == PlyValueState::ended) {
     return fail(ErrorCode::truncatedInput,
                 "the PLY file ends inside " + elementName(element, row) + "; copy or export it again.", row);
   }
@@ -204,14 +116,14 @@ bool PlyReader::readRow(const PlyElement& element, std::uint64_t row, std::size_
       if (!readList(element, property, row, p == wantedList ? &values.list : nullptr)) return false;
       continue;
     }
-    const ValueState state = values_.next(property.type, values.scalars[p]);
-    if (state == ValueState::ended) {
+    const PlyValueState state = values_.next(property.type, values.scalars[p]);
+    if (state == PlyValueState::ended) {
       return fail(ErrorCode::truncatedInput,
                   "the PLY file ends inside " + elementName(element, row) + ", but announces " +
                       std::to_string(element.count) + "; copy or export it again.",
                   row);
     }
-    if (state == ValueState::malformed) {
+    if (state == PlyValueState::malformed) {
       return fail(ErrorCode::malformedInput, "a value of " + elementName(element, row) + " is not a number.", row);
     }
   }
@@ -230,15 +142,17 @@ bool PlyReader::addVertex(const Row& row, std::uint64_t index, const std::array<
   return true;
 }
 
+bool isVertexNumber(double value) {
+  return value >= 0.0 && value < static_cast<double>(kMaxIndex) && value == std::floor(value);
+}
+
 bool PlyReader::addFace(const Row& row, std::uint64_t index, std::optional<std::size_t> label) {
-  for (const double value : row.list) {
-    if (!(value >= 0.0 && value < static_cast<double>(kMaxIndex) && value == std::floor(value))) {
-      return fail(ErrorCode::indexOutOfRange,
-                  "face " + std::to_string(index) +
-                      " (counted from 0) names a vertex with an impossible number; "
-                      "export the model again.",
-                  index);
-    }
+  if (!std::all_of(row.list.begin(), row.list.end(), isVertexNumber)) {
+    return fail(ErrorCode::indexOutOfRange,
+                "face " + std::to_string(index) +
+                    " (counted from 0) names a vertex with an impossible number; "
+                    "export the model again.",
+                index);
   }
   if (row.list.size() < 3) {
     ++soup_.skippedFaces;
@@ -247,6 +161,38 @@ bool PlyReader::addFace(const Row& row, std::uint64_t index, std::optional<std::
   for (const double value : row.list) soup_.corners.push_back(static_cast<std::int32_t>(value));
   soup_.faceEnd.push_back(soup_.corners.size());
   if (label) labelFace(row.scalars[*label]);
+  return true;
+}
+
+/// Triangles on any three consecutive vertices, every second one turned round; -1 begins a new strip. A vertex that is
+/// repeated to go on elsewhere makes no triangle.
+bool PlyReader::addStrips(const Row& row, std::uint64_t index) {
+  std::array<std::int32_t, 3> last{kNone, kNone, kNone};
+  bool turned = false;
+  for (const double value : row.list) {
+    if (value == -1.0) {
+      last = {kNone, kNone, kNone};
+      turned = false;
+      continue;
+    }
+    if (!isVertexNumber(value)) {
+      return fail(ErrorCode::indexOutOfRange,
+                  "triangle strip " + std::to_string(index) +
+                      " (counted from 0) names a vertex with an impossible number; export the model again.",
+                  index);
+    }
+    last = {last[1], last[2], static_cast<std::int32_t>(value)};
+    if (last[0] == kNone) continue;
+    if (last[0] != last[1] && last[1] != last[2] && last[2] != last[0]) {
+      if (soup_.faceCount() == kMaxIndex) {
+        error_ = tooLargeError("faces");
+        return false;
+      }
+      soup_.corners.insert(soup_.corners.end(), {last[turned ? 1 : 0], last[turned ? 0 : 1], last[2]});
+      soup_.faceEnd.push_back(soup_.corners.size());
+    }
+    turned = !turned;
+  }
   return true;
 }
 
@@ -276,6 +222,7 @@ bool PlyReader::addEdge(const Row& row, const PlyElement& element) {
 bool PlyReader::readElement(const PlyElement& element) {
   const bool isVertex = element.name == "vertex";
   const bool isFace = element.name == "face";
+  const bool isStrip = element.name == "tristrips";
   const bool isEdge = element.name == "edge" && propertyNamed(element, "vertex1") != kNoProperty &&
                       propertyNamed(element, "vertex2") != kNoProperty;
   // Elements without properties have no data, so their count would bound nothing.
@@ -286,8 +233,8 @@ bool PlyReader::readElement(const PlyElement& element) {
   if (isVertex && !hasXyz) {
     return fail(ErrorCode::malformedInput, "The PLY file's vertices have no x, y and z; export the model again.", 0);
   }
-  const std::size_t corners = isFace ? cornersProperty(element) : kNoProperty;
-  if (isFace && corners == kNoProperty) {
+  const std::size_t corners = isFace || isStrip ? cornersProperty(element) : kNoProperty;
+  if ((isFace || isStrip) && corners == kNoProperty) {
     return fail(ErrorCode::malformedInput, "The PLY file's faces have no vertex_indices; export the model again.", 0);
   }
   const std::optional<std::size_t> label = isFace ? labelProperty(element) : std::nullopt;
@@ -306,6 +253,7 @@ bool PlyReader::readElement(const PlyElement& element) {
     if (!readRow(element, i, corners, row)) return false;
     if (isVertex && !addVertex(row, i, xyz)) return false;
     if (isFace && !addFace(row, i, label)) return false;
+    if (isStrip && !addStrips(row, i)) return false;
     if (isEdge && !addEdge(row, element)) return false;
   }
   return true;

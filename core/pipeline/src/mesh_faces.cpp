@@ -5,6 +5,7 @@
 
 #include "qmcf/cleanup/cleanup.hpp"
 #include "qmcf/front/advancing_front.hpp"
+#include "qmcf/qmorph/qmorph.hpp"
 #include "qmcf/spatial/triangle_bvh.hpp"
 #include "too_coarse.hpp"
 
@@ -37,26 +38,40 @@ FaceMesh trianglesOf(const Patch& patch) {
 }
 
 void count(MeshedFace& face) {
-  for (const Element& element : face.mesh.elements) ++(cornerCount(element) == 4 ? face.report.quads : face.report.triangles);
+  for (const Element& element : face.mesh.elements)
+    ++(cornerCount(element) == 4 ? face.report.quads : face.report.triangles);
+}
+
+/// The front of the chosen mode, before the clean-up.
+Result<FaceMesh> advance(const Patch& patch, const PreparedFaces& prepared, const TriangleBvh& tree, std::size_t face,
+                         Mode mode, Progress& progress) {
+  if (mode == Mode::qmorph) {
+    auto front = advanceMorph(patch, tree, MorphOptions{}, progress);
+    if (!front) return front.error();
+    return std::move(front.value().mesh);
+  }
+  auto front = advanceFront(patch, prepared.fields[face], FrontOptions{}, progress);
+  if (!front) return front.error();
+  return std::move(front.value().mesh);
 }
 
 }  // namespace
 
-Result<MeshedFace> meshFace(const TriangleMesh& mesh, const Brep& brep, const PreparedFaces& prepared, std::int32_t face,
-                            const MeshOptions& /*options*/, Progress& progress) {
+Result<MeshedFace> meshFace(const TriangleMesh& mesh, const Brep& brep, const PreparedFaces& prepared,
+                            std::int32_t face, const MeshOptions& options, Progress& progress) {
   const auto f = static_cast<std::size_t>(face);
   const Patch& patch = prepared.patches[f];
   const TriangleBvh tree = faceTree(mesh, brep.faces[f]);
   MeshedFace result;
   result.report.face = face;
 
-  auto front = advanceFront(patch, prepared.fields[f], FrontOptions{}, progress);
+  auto front = advance(patch, prepared, tree, f, options.mode, progress);
   if (!front) return front.error();
-  auto cleaned = cleanUp(front.value().mesh, patch, tree, CleanupOptions{}, progress);
+  auto cleaned = cleanUp(front.value(), patch, tree, CleanupOptions{}, progress);
   if (!cleaned) return cleaned.error();
   if (cleaned.value().degenerate.empty()) {
     result.mesh = std::move(cleaned.value().mesh);
-    result.report.method = "qmcf";
+    result.report.method = modeName(options.mode);
     count(result);
     return result;
   }
@@ -110,7 +125,8 @@ QuadMesh joinFaces(const Brep& brep, const PreparedFaces& prepared, const std::v
   for (std::size_t e = 0; e < brep.edges.size(); ++e) {
     const auto& nodes = prepared.divided.edges[e].nodes;
     for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
-      joined.featureSegments.push_back({vertexOfNode(nodes[i]), vertexOfNode(nodes[i + 1]), static_cast<std::int32_t>(e)});
+      joined.featureSegments.push_back(
+          {vertexOfNode(nodes[i]), vertexOfNode(nodes[i + 1]), static_cast<std::int32_t>(e)});
     }
   }
   return joined;

@@ -21,6 +21,12 @@ MeshOptions withDefaults(MeshOptions options) {
   return options;
 }
 
+/// As above, for a run that wants the field whatever front would ask it.
+MeshOptions withField(MeshOptions options) {
+  options.mode = Mode::qmcf;
+  return withDefaults(std::move(options));
+}
+
 /// How often places where the mesh is not valid get smaller elements, and how small these may be in units of the base.
 constexpr int kMaxRefinements = 4;
 constexpr double kLowestSize = 0.15;
@@ -63,6 +69,8 @@ Error invalid(std::string message) { return {ErrorCode::invalidOption, std::move
 
 }  // namespace
 
+std::string_view modeName(Mode mode) { return mode == Mode::qmcf ? "qmcf" : "qmorph"; }
+
 std::optional<Error> validateOptions(const MeshOptions& options) {
   if (options.size && options.quads) return invalid("Give either size or quads, not both.");
   if (options.size && !(std::isfinite(*options.size) && *options.size > 0.0)) {
@@ -74,7 +82,8 @@ std::optional<Error> validateOptions(const MeshOptions& options) {
   if (!(options.featureAngle > 0.0 && options.featureAngle < 180.0)) {
     return invalid("featureAngle must be between 0 and 180 degrees.");
   }
-  if (!(options.gradation > 0.0 && options.gradation <= 1.0)) return invalid("gradation must be above 0 and at most 1.");
+  if (!(options.gradation > 0.0 && options.gradation <= 1.0))
+    return invalid("gradation must be above 0 and at most 1.");
   return std::nullopt;
 }
 
@@ -98,7 +107,7 @@ Result<FieldResult> computeField(const TriangleMesh& input, const MeshOptions& o
   if (!inspected) return inspected.error();
   FieldResult result;
   result.input = std::move(inspected).value();
-  auto prepared = prepareFaces(result.input.repaired.mesh, result.input.brep, withDefaults(options), progress);
+  auto prepared = prepareFaces(result.input.repaired.mesh, result.input.brep, withField(options), progress);
   if (!prepared) return prepared.error();
   result.size = prepared.value().size.base;
   result.patches = std::move(prepared.value().patches);

@@ -5,6 +5,8 @@
 #include <optional>
 #include <utility>
 
+#include "qmcf/qmorph/qmorph.hpp"
+
 namespace qmcf {
 namespace {
 
@@ -48,6 +50,7 @@ class Preparation {
     sizing_.quads = options.quads;
     sizing_.gradation = options.gradation;
     sizing_.divisionsPerTurn = kDivisionsPerTurn;
+    if (options.mode == Mode::qmorph) background_.relativeSize = kMorphTriangleSize;
     minimum_.assign(brep.edges.size(), 1);
     done_.assign(brep.faces.size(), !result_.patches.empty());
     changed_.assign(brep.faces.size(), result_.patches.empty());
@@ -133,7 +136,7 @@ class Preparation {
       if (done_[f]) continue;
       FaceProgress faceProgress(progress_, f, faces);
       auto built = buildBackground(mesh_, brep_, static_cast<std::int32_t>(f), result_.size, result_.divided,
-                                   BackgroundOptions{}, faceProgress);
+                                   background_, faceProgress);
       if (!built) return built.error();
       BackgroundResult& background = built.value();
       tooCoarse_.insert(tooCoarse_.end(), background.tooCoarse.begin(), background.tooCoarse.end());
@@ -169,6 +172,7 @@ class Preparation {
     for (std::size_t f = 0; f < faces; ++f) {
       if (!changed_[f]) continue;
       result_.changed.push_back(static_cast<std::int32_t>(f));
+      if (options_.mode == Mode::qmorph) continue;
       FaceProgress faceProgress(progress_, f, faces);
       auto field = computeCrossField(result_.patches[f], kinds, fieldOptions(options_), faceProgress);
       if (!field) return field.error();
@@ -184,6 +188,7 @@ class Preparation {
   PreparedFaces result_;
   Progress& progress_;
   SizingOptions sizing_;
+  BackgroundOptions background_;
   std::vector<std::int32_t> minimum_;    ///< Per edge: divisions that its faces asked for.
   std::vector<bool> done_;               ///< Per face: the triangulation fits sizes and divisions.
   std::vector<bool> changed_;            ///< Per face: triangulated anew since the start.

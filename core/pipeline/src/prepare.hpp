@@ -15,7 +15,7 @@ struct PreparedFaces {
   SizeField size;
   DividedEdges divided;
   std::vector<Patch> patches;          ///< One per face of the B-rep.
-  std::vector<CrossField> fields;      ///< One per patch.
+  std::vector<CrossField> fields;      ///< One per patch; empty ones in a mode that asks no field.
   std::vector<std::int32_t> minimumDivisions;  ///< Per edge: what its faces asked for, >= 1.
   std::vector<std::int32_t> changed;   ///< Faces that the last call made anew, ascending.
 };

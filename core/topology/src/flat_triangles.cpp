@@ -66,13 +66,14 @@ class Flattener {
     addItem(state_, std::move(item));
     if (found.empty() || !state_.modify) return;
     EditSoup soup(state_);
+    // In steps and triangles changed: around an edge with many triangles, each split doubles what the next one splits.
     std::size_t budget = 50 * found.size() + 1000;
     for (const Candidate& candidate : found) queue_.push(candidate);
     while (!queue_.empty() && budget > 0) {
       const std::int32_t t = queue_.top().triangle;
       queue_.pop();
-      --budget;
-      if (soup.alive(t)) flatten(soup, t);
+      const std::size_t cost = soup.alive(t) ? 1 + flatten(soup, t) : 1;
+      budget -= std::min(cost, budget);
     }
     // What is left would break the later stages if it had no area at all.
     for (std::size_t t = 0; t < state_.mesh.triangles.size(); ++t) {
@@ -89,21 +90,24 @@ class Flattener {
     if (shape.height <= height_) queue_.push({shape.longest, t});
   }
 
-  void flatten(EditSoup& soup, std::int32_t t) {
+  /// Returns how many triangles were split or made.
+  std::size_t flatten(EditSoup& soup, std::int32_t t) {
     const Shape shape = shapeOf(state_.mesh, t);
-    if (shape.height > height_) return;
+    if (shape.height > height_) return 0;
     const auto corners = state_.mesh.triangles[at(t)];
     if (shape.shortest <= height_) {
       const std::int32_t a = corners[shape.shortestEdge];
       const std::int32_t b = corners[(shape.shortestEdge + 1) % 3];
-      if (keepsTopology_ && !soup.mayMerge(a, b)) return;
+      if (keepsTopology_ && !soup.mayMerge(a, b)) return 0;
       soup.merge(std::min(a, b), std::max(a, b));
       for (const std::int32_t moved : soup.around(std::min(a, b))) push(soup, moved);
-      return;
+      return 0;
     }
     const std::int32_t a = corners[shape.longestEdge];
     const std::int32_t b = corners[(shape.longestEdge + 1) % 3];
-    for (const std::int32_t part : soup.splitEdge(a, b, corners[(shape.longestEdge + 2) % 3])) push(soup, part);
+    const std::vector<std::int32_t> parts = soup.splitEdge(a, b, corners[(shape.longestEdge + 2) % 3]);
+    for (const std::int32_t part : parts) push(soup, part);
+    return parts.size();
   }
 
   RepairState& state_;

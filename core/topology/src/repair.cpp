@@ -93,8 +93,9 @@ Error elementError(ErrorCode code, std::string message, std::vector<std::int64_t
   return {code, std::move(message), std::move(elements)};
 }
 
-/// Beyond this squares overflow.
+/// Beyond these, squares of coordinates overflow, or squares of areas vanish.
 constexpr double kLargestCoordinate = 1e150;
+constexpr double kSmallestDiagonal = 1e-60;
 
 Result<Done> checkInput(const TriangleMesh& input) {
   constexpr auto kLargest = static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max());
@@ -194,6 +195,10 @@ Result<RepairedMesh> repair(const TriangleMesh& input, const RepairOptions& opti
   std::iota(state.origin.begin(), state.origin.end(), std::int64_t{0});
   state.modify = options.modify;
   detail::measure(state);
+  if (state.diagonal < detail::kSmallestDiagonal && state.diagonal > 0.0) {
+    return Error{
+        ErrorCode::noSurface, "The model is less than 1e-60 across, too small to compute with; scale it up.", {}};
+  }
 
   for (int pass = 0; pass < detail::kPasses; ++pass) {
     if (!progress.report(Stage::repair, static_cast<double>(pass) / detail::kPasses)) return cancelledError();

@@ -43,6 +43,12 @@ TEST(ReadObj, AcceptsAnyLineEndAndByteOrderMark) {
   }
 }
 
+TEST(ReadObj, VerticesOfTwoCoordinatesLieInThePlane) {
+  const ReadModel model = readOk("v 1 2\nv 3 2 # x and y\nv 1 5\nf 1 2 3\n");
+  EXPECT_EQ(model.mesh.positions, (std::vector<Vec3>{{1, 2, 0}, {3, 2, 0}, {1, 5, 0}}));
+  expectError("v 1\nv 0 1\nv 1 1\nf 1 2 3\n", ErrorCode::malformedInput, "Line 1");
+}
+
 TEST(ReadObj, ReadsNumbersExactly) {
   const ReadModel model =
       readOk("v .1 -1.e-3 +2E2\nv 4.9406564584124654e-324 1e-400 1.7976931348623157e308\nv 0.1 0 -0\nf 1 2 3\n");
@@ -112,7 +118,7 @@ TEST(ReadObj, NamesTheLineOfANonFiniteCoordinate) {
 
 TEST(ReadObj, NamesTheLineThatItCannotUnderstand) {
   expectError("v 0 0 0\nv 1,5 0 0\nf 1 2 1\n", ErrorCode::malformedInput, "Line 2: the coordinate \"1,5\"");
-  expectError("v 0 0\nf 1 1 1\n", ErrorCode::malformedInput, "Line 1");
+  expectError("v 0\nf 1 1 1\n", ErrorCode::malformedInput, "Line 1");
   expectError(withSquare("f 1 2 3x\n"), ErrorCode::malformedInput, "Line 5");
   expectError(withSquare("f 1 2 three\n"), ErrorCode::malformedInput, "\"three\"");
   expectError("v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\nv 2", ErrorCode::malformedInput, "Line 5");

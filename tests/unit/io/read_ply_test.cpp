@@ -97,6 +97,31 @@ TEST(ReadPly, DoesNotTrustCounts) {
   expectError(header("ascii", faces) + "4294967295 1 2 3", ErrorCode::truncatedInput, "face 0");
 }
 
+/// Vertices (0, 0) (1, 0) (0, 1) (1, 1) (0, 2) (1, 2), and one list of strips.
+std::string withStrips(const std::string& list) {
+  return "ply\nformat ascii 1.0\nelement vertex 6\nproperty float x\nproperty float y\nproperty float z\n"
+         "element tristrips 1\nproperty list int int vertex_indices\nend_header\n"
+         "0 0 0\n1 0 0\n0 1 0\n1 1 0\n0 2 0\n1 2 0\n" +
+         list + "\n";
+}
+
+TEST(ReadPly, ReadsTriangleStrips) {
+  // Two squares, as one strip, as two, and with the vertices that strips repeat to go on elsewhere: always four
+  // triangles that look up and cover two units.
+  for (const char* const list : {"6 0 1 2 3 4 5", "9 0 1 2 3 -1 2 3 4 5", "10 0 1 2 3 3 2 2 3 4 5"}) {
+    const ReadModel model = readOk(withStrips(list));
+    ASSERT_EQ(model.mesh.triangles.size(), 4U) << list;
+    for (std::size_t t = 0; t < 4; ++t) EXPECT_DOUBLE_EQ(areaVector(model.mesh, t).z, 0.5) << list;
+  }
+}
+
+TEST(ReadPly, RefusesStripsThatNameNoVertex) {
+  expectError(withStrips("4 0 1 2 6"), ErrorCode::indexOutOfRange, "vertex 6");
+  expectError(withStrips("4 0 1 2 -2"), ErrorCode::indexOutOfRange, "triangle strip 0");
+  expectError(withStrips("2 0 1"), ErrorCode::emptyInput, "no face");
+  expectError(withStrips("9 0 1 2"), ErrorCode::truncatedInput, "ends inside");
+}
+
 TEST(ReadPly, NamesTheElementAtFault) {
   std::string text = kAsciiPly;
   text.replace(text.find("1 -7 1.5"), 1, "nan");

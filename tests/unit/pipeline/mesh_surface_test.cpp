@@ -47,6 +47,20 @@ TEST(MeshSurface, DoesNotDependOnTheTessellation) {
   EXPECT_NEAR(needles.quality.scaledJacobian.mean, fine.quality.scaledJacobian.mean, 0.02);
 }
 
+TEST(MeshSurface, MeshesWithTheOriginalFront) {
+  SilentProgress silent;
+  MeshOptions options;
+  options.quads = 800;
+  options.mode = Mode::qmorph;
+  const auto result = meshSurface(shapes::cylinder(48, 1, 4.0), options, silent);
+  ASSERT_TRUE(result.ok());
+  expectGood(result.value());
+  for (const FaceReport& face : result.value().faces) EXPECT_EQ(face.method, "qmorph");
+  EXPECT_EQ(result.value().fieldSingularities, 0);
+  // It merges triangles of the element size, so the count asked for is met roughly.
+  EXPECT_NEAR(static_cast<double>(result.value().quality.quads), 800.0, 160.0);
+}
+
 TEST(MeshSurface, MeshesClosedSmoothAndNonManifoldParts) {
   expectGood(mesh(shapes::torus(60, 24, 3.0, 1.0), 1500));
   const TriangleMesh tee = shapes::join(

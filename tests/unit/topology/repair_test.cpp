@@ -339,6 +339,7 @@ TEST(Repair, RefusesWhatIsNoSurface) {
   line.positions = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}};
   line.triangles = {{0, 1, 2}};
   EXPECT_EQ(codeOf(line), ErrorCode::noSurface);
+  EXPECT_EQ(codeOf(shapes::moved(shapes::square(1), [](const Vec3& p) { return p * 1e-61; })), ErrorCode::noSurface);
   line.triangles = {{0, 1, 3}};
   EXPECT_EQ(codeOf(line), ErrorCode::indexOutOfRange);
   line.triangles = {{0, 1, -1}};

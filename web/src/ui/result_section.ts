@@ -113,6 +113,7 @@ function figures(quality: QualityReport, size: number): HTMLElement {
 
 const methodNames: Record<FaceReport['method'], string> = {
   qmcf: 'cross field',
+  qmorph: 'Q-Morph',
   recombined: 'paired triangles',
   triangles: 'triangles only',
   omitted: 'left out',

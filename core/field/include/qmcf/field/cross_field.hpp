@@ -31,6 +31,9 @@ enum class FieldSolver : std::uint8_t { eliminate, leastSquares };
 /// The discretisation of the energy: cotangent weights, or the full finite elements of Knoeppel et al. (A2, A3).
 enum class FieldEnergy : std::uint8_t { cotangent, finiteElements };
 
+/// Why a cross is what it is.
+enum class FieldPin : std::uint8_t { none, boundary, sharp, nonManifold, curvature, user };
+
 /// A line in space that the field shall follow; a short one gives the direction at a point.
 struct FieldStroke {
   Vec3 from;
@@ -42,7 +45,7 @@ struct FieldOptions {
   bool boundary = true;     ///< Align with boundary edges.
   bool sharp = true;        ///< Align with sharp and label edges.
   bool nonManifold = true;  ///< Align with non-manifold edges.
-  bool curvature = true;    ///< Guide by, and pin to, reliable principal curvature directions.
+  bool curvature = true;    ///< Guide by, and with pinCurvature pin to, principal curvature directions.
   /// Align with these lines: pins the vertices within half an element of a line, at least the nearest one if that lies
   /// within an element. Edges come first; where lines contradict each other, the nearer one holds.
   std::vector<FieldStroke> strokes;
@@ -52,9 +55,12 @@ struct FieldOptions {
   bool mask = true;       ///< The paper's alpha: curvature does not guide next to pinned vertices.
   double shift = 0.0;     ///< lambda of (A - lambda M) u = M q, <= 0: the lower the more curvature; leastSquares only.
   double guidance = 0.3;  ///< Strength of the curvature's pull, per (k1 - k2)^2; >= 0.
-  bool pinCurvature = false;     ///< Pin the reliable curvature directions rather than let them pull alone.
-  double pinAnisotropy = 0.7;    ///< Least |k1 - k2| / (|k1| + |k2|) of a reliable direction, in [0, 1].
-  double pinTurn = 0.05;         ///< Least turn of the surface across one element, in radians, of a reliable direction.
+  bool pinCurvature = false;       ///< Pin the reliable curvature directions rather than let them pull alone.
+  double pinAnisotropy = 0.7;      ///< Least |k1 - k2| / (|k1| + |k2|) of a reliable direction, in [0, 1].
+  bool removeInconsistent = true;  ///< Take back curvature pins that contradict each other or the field (3.2.3).
+  double pinTurn = 0.05;  ///< Least turn of the surface across one element, in radians, of a reliable direction.
+  /// Curvature has a say only where the boundary's length over the root of the area is at most this; 0: everywhere.
+  double denseBoundary = 6.0;
   bool diffuse = true;           ///< Spread the singularities by diffusing and renormalising.
   double diffusionLength = 2.5;  ///< What the last diffusion smooths over, in elements, > 0.
   double cancelDistance = 3.0;   ///< Opposite singularities closer than this many elements are removed; 0: none.
@@ -66,9 +72,12 @@ struct FieldOptions {
 struct CrossField {
   IdMap<VertexId, std::complex<double>> cross;  ///< |u| = 1.
   IdMap<VertexId, TangentFrame> frame;
-  IdMap<VertexId, std::uint8_t> constrained;  ///< 0 free, 1 boundary or other edge, 2 curvature, 3 user.
-  IdMap<VertexId, std::uint8_t> removed;      ///< 1 where a curvature constraint contradicted its neighbours.
-  IdMap<TriangleId, std::int32_t> index;      ///< Quarter turns around each triangle.
+  /// Length of the cross before it was last normalised (and before pairs were cancelled): 1 where pinned, small near
+  /// singularities, where neighbours disagree. Of a smoothest field (no pins, no diffusion) the mean square is 1.
+  IdMap<VertexId, double> magnitude;
+  IdMap<VertexId, FieldPin> constrained;  ///< What pins the cross; where edges of several kinds meet, the last kind.
+  IdMap<VertexId, std::uint8_t> removed;  ///< 1 where a curvature pin was taken back since it contradicted others.
+  IdMap<TriangleId, std::int32_t> index;  ///< Quarter turns around each triangle.
   /// Per triangle: the field at its corners as u in the triangle's own frame (x along its first half-edge, normal of
   /// the triangle), continuous across the corners: their barycentric mean interpolates.
   IdMap<TriangleId, std::array<std::complex<double>, 3>> corner;
@@ -92,7 +101,7 @@ double crossConfidence(const CrossField& field, const SurfacePoint& point);
 
 /// The smoothest cross field of the patch under its constraints (Knoeppel et al. 2013; section 3 of the paper).
 /// edgeKinds: per edge of the B-rep, an EdgeKind as integer, to switch constraints by kind.
-/// Errors: cancelled, internal (factorisation failed).
+/// Errors: cancelled, invalidOption (a number out of its range), internal (factorisation failed).
 Result<CrossField> computeCrossField(const Patch& patch, const std::vector<std::uint8_t>& edgeKinds,
                                      const FieldOptions& options, Progress& progress);
 

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "qmcf/base/progress.hpp"
@@ -17,11 +18,20 @@
 
 namespace qmcf {
 
+/// Which advancing front makes the quads.
+enum class Mode : std::uint8_t {
+  qmcf,    ///< Side edges placed by cross field and size field (the paper).
+  qmorph,  ///< The original Q-Morph (Owen et al. 1999), the paper's baseline. It asks no cross field.
+};
+/// The mode's name; the same in C++, JSON and TypeScript.
+std::string_view modeName(Mode mode);
+
 /// All options of a run. The same names are used in C++, JSON and TypeScript.
 struct MeshOptions {
   std::optional<double> size;         ///< Element edge length in units of the model, > 0. Excludes quads.
   std::optional<std::int64_t> quads;  ///< Number of elements to aim at, 1 to 10,000,000. Default 3000 if size is unset.
   double featureAngle = 30.0;         ///< Dihedral angle in degrees, (0, 180), from which an edge is sharp.
+  Mode mode = Mode::qmcf;             ///< The advancing front.
   double gradation = 0.2;             ///< Largest slope of the size field, (0, 1].
   bool alignBoundary = true;          ///< Field constraint: boundary edges.
   bool alignSharp = true;             ///< Field constraint: sharp edges.
@@ -32,7 +42,7 @@ struct MeshOptions {
 /// How one face was meshed.
 struct FaceReport {
   std::int32_t face = kNone;
-  std::string method;                 ///< "qmcf", "recombined", "triangles": the step of the ladder that worked; "omitted".
+  std::string method;                 ///< "qmcf", "qmorph", "recombined", "triangles": the step that worked; "omitted".
   std::string reason;                 ///< Why the earlier steps did not; empty for the first.
   std::int64_t quads = 0;
   std::int64_t triangles = 0;
@@ -64,8 +74,8 @@ struct MeshResult {
   QuadMesh mesh;
   QualityReport quality;
   std::vector<FaceReport> faces;
-  std::int64_t fieldSingularities = 0;
-  std::int64_t refinedPlaces = 0;      ///< Where elements of the size asked for could not follow the part: smaller there.
+  std::int64_t fieldSingularities = 0;  ///< 0 in a mode without a cross field.
+  std::int64_t refinedPlaces = 0;       ///< Where elements of the size asked for could not follow the part: smaller there.
 };
 
 /// Repair and B-rep only. Errors: as repair() and recoverBrep().

@@ -47,8 +47,8 @@ struct RepairedMesh {
 /// - vertices without triangles dropped.
 ///
 /// Non-manifold edges and vertices stay; recoverBrep() cuts there. With options.modify false, only exact welding,
-/// removal of repeated corners and halving change the mesh; the rest is counted. Errors: noSurface,
-/// nonFiniteCoordinate, indexOutOfRange, tooLarge, cancelled.
+/// removal of repeated corners and halving change the mesh; the rest is counted. Errors: noSurface (also when the model
+/// is less than 1e-60 across), nonFiniteCoordinate (also beyond 1e150), indexOutOfRange, tooLarge, cancelled.
 Result<RepairedMesh> repair(const TriangleMesh& input, const RepairOptions& options, Progress& progress);
 
 }  // namespace qmcf
