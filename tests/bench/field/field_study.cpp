@@ -115,6 +115,7 @@ Json figuresOf(const FieldResult& part, const Run& run, const Run& reliable) {
           {"vertices", figures.vertices},
           {"positive", figures.positive},
           {"negative", figures.negative},
+          {"pairs", figures.pairs},
           {"nearBoundary", figures.nearBoundary},
           {"indexDefect", figures.indexDefect},
           {"notFinite", figures.notFinite},

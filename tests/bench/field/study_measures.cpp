@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <cstdlib>
 #include <limits>
 #include <numbers>
 
@@ -28,6 +29,29 @@ double angleToCross(const std::array<Vec3, 4>& directions, const Vec3& along) {
     best = std::min(best, std::atan2(norm(cross(d, along)), dot(d, along)) / kDegree);
   }
   return best;
+}
+
+/// Whether two successive boundary half-edges are chords of the same edge of the B-rep, and meet at no corner.
+bool insideEdge(const Patch& patch, HalfedgeId before, HalfedgeId after) {
+  return patch.edge[before] != kNone && patch.edge[before] == patch.edge[after] &&
+         patch.cornerQuads[patch.surface.origin(after)] == 2;
+}
+
+/// The direction between those of the chords before and after a node, in the plane of its frame.
+Vec3 tangentAt(const Patch& patch, const TangentFrame& frame, HalfedgeId before, HalfedgeId after) {
+  const Surface& surface = patch.surface;
+  const auto direction = [&](HalfedgeId h) {
+    return normalized(
+        tangentPart(surface.position(surface.target(h)) - surface.position(surface.origin(h)), frame.normal));
+  };
+  return normalized(direction(before) + direction(after));
+}
+
+std::array<Vec3, 4> directionsAt(const CrossField& field, VertexId v) {
+  const double angle = std::arg(field.cross[v]) / 4.0;
+  const Vec3 first = field.frame[v].x * std::cos(angle) + field.frame[v].y * std::sin(angle);
+  const Vec3 second = cross(field.frame[v].normal, first);
+  return {first, second, first * -1.0, second * -1.0};
 }
 
 double edgeEnergy(const Patch& patch, const CrossField& field) {
@@ -76,6 +100,7 @@ void FieldFigures::add(const FieldFigures& other) {
   vertices += other.vertices;
   positive += other.positive;
   negative += other.negative;
+  pairs += other.pairs;
   nearBoundary += other.nearBoundary;
   indexDefect += std::abs(other.indexDefect);
   notFinite += other.notFinite;
@@ -90,6 +115,10 @@ void FieldFigures::add(const FieldFigures& other) {
 double boundaryDeviation(const Patch& patch, const CrossField& field) {
   const Surface& surface = patch.surface;
   const Connection connection = buildConnection(patch);
+  IdMap<VertexId, HalfedgeId> arriving(surface.vertexCount());
+  for (const HalfedgeId h : surface.halfedges()) {
+    if (surface.isBoundary(h)) arriving[surface.target(h)] = h;
+  }
   double worst = 0.0;
   for (const HalfedgeId h : surface.halfedges()) {
     const VertexId a = surface.origin(h);
@@ -97,12 +126,22 @@ double boundaryDeviation(const Patch& patch, const CrossField& field) {
     if (!surface.isBoundary(h) || !isEdgePin(field.constrained[a]) || !isEdgePin(field.constrained[b])) continue;
     worst = std::max(worst, crossDifference(field.cross[a], std::polar(1.0, 4.0 * connection.angle[h])));
     worst = std::max(worst, crossDifference(field.cross[b], std::polar(1.0, 4.0 * connection.total[b])));
+    if (insideEdge(patch, arriving[a], h)) {
+      worst = std::max(worst, angleToCross(directionsAt(field, a), tangentAt(patch, field.frame[a], arriving[a], h)));
+    }
     if (surface.isBoundary(Surface::next(h)) || surface.isBoundary(Surface::prev(h))) continue;
+    // Between the nodes the tangent turns evenly; a corner has none, there it is the chord.
+    const HalfedgeId next = surface.outgoing(b);
+    const double atA = insideEdge(patch, arriving[a], h) ? 0.5 * (connection.fan[a] - std::numbers::pi) : 0.0;
+    const double atB = insideEdge(patch, h, next) ? 0.5 * (std::numbers::pi - connection.fan[b]) : 0.0;
     SurfacePoint middle{Surface::triangle(h), {0.0, 0.0, 0.0}};
     middle.barycentric[static_cast<std::size_t>(h.value % 3)] = 0.5;
     middle.barycentric[static_cast<std::size_t>(Surface::next(h).value % 3)] = 0.5;
-    const Vec3 along = normalized(surface.position(b) - surface.position(a));
-    worst = std::max(worst, angleToCross(crossDirections(surface, field, middle), along));
+    const Vec3 chord = normalized(surface.position(b) - surface.position(a));
+    const Vec3 left = cross(normalized(surface.areaVector(Surface::triangle(h))), chord);
+    const double turn = 0.5 * (atA + atB);
+    worst = std::max(
+        worst, angleToCross(crossDirections(surface, field, middle), chord * std::cos(turn) + left * std::sin(turn)));
   }
   return worst;
 }
@@ -110,7 +149,14 @@ double boundaryDeviation(const Patch& patch, const CrossField& field) {
 FieldFigures measureField(const Patch& patch, const CrossField& field, const CrossField& reliable) {
   FieldFigures figures;
   figures.vertices = static_cast<std::int64_t>(patch.surface.vertexCount());
-  for (const Singularity& s : field.singularities) ++(s.index > 0 ? figures.positive : figures.negative);
+  std::int64_t all = 0;
+  std::int64_t sum = 0;
+  for (const Singularity& s : field.singularities) {
+    ++(s.index > 0 ? figures.positive : figures.negative);
+    all += std::abs(s.index);
+    sum += s.index;
+  }
+  figures.pairs = (all - std::abs(sum)) / 2;
   figures.nearBoundary = countNearBoundary(patch, field);
   figures.indexDefect = gaussBonnetDefect(patch, field);
   figures.notFinite = countNotFinite(patch, field);

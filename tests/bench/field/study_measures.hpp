@@ -13,6 +13,7 @@ struct FieldFigures {
   std::int64_t vertices = 0;
   std::int64_t positive = 0;  ///< Singularities of positive index.
   std::int64_t negative = 0;
+  std::int64_t pairs = 0;         ///< Opposite quarter turns in the same patch, which Gauss-Bonnet does not ask for.
   std::int64_t nearBoundary = 0;  ///< Singularities less than one element from a boundary vertex.
   std::int64_t indexDefect = 0;   ///< Sum over the patches of how far each breaks Gauss-Bonnet.
   std::int64_t notFinite = 0;     ///< Crosses, corners and singularities that are no numbers or have another length.
@@ -30,9 +31,12 @@ struct FieldFigures {
 /// there are what curvatureDeviation compares with.
 FieldFigures measureField(const Patch& patch, const CrossField& field, const CrossField& reliable);
 
-/// The largest angle, in degrees, between the field and a pinned boundary edge: at both ends in the unrolled fan, where
-/// corners are snapped to whole quarter turns, and in space at the middle of the edge, except in triangles with a
-/// second boundary edge, where the interpolated field has to turn from one to the other.
+/// The largest angle, in degrees, between the field and the pinned boundary edges:
+/// - at every node in its unrolled fan, where corners are snapped to whole quarter turns;
+/// - in space, at nodes inside an edge, from the tangent between the two chords;
+/// - in space, in the middle of every chord, from the direction half-way between the tangents at its ends (the chord's
+///   own on a straight edge); not in triangles with a second boundary edge, where the field turns from one to the
+///   other.
 double boundaryDeviation(const Patch& patch, const CrossField& field);
 
 }  // namespace qmcf

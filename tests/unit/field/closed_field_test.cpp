@@ -30,6 +30,29 @@ TEST(ClosedField, OfTorusHasSingularitiesThatCancel) {
   EXPECT_EQ(field.singularities.size() % 2, 0U);
 }
 
+TEST(ClosedField, HasTheSumOfIndicesThatItsGenusDemands) {
+  const std::vector<std::pair<int, Patch>> patches = {{0, testing::makeSphere(10)},
+                                                      {1, testing::makeTorus(40, 16)},
+                                                      {1, testing::makePretzel(1, 5)},
+                                                      {2, testing::makePretzel(2, 5)},
+                                                      {3, testing::makePretzel(3, 5)}};
+  for (const auto& [genus, patch] : patches) {
+    ASSERT_EQ(patch.surface.eulerCharacteristic(), 2 - 2 * genus);
+    for (const bool diffuse : {true, false}) {
+      for (const FieldEnergy energy : {FieldEnergy::cotangent, FieldEnergy::finiteElements}) {
+        FieldOptions options;
+        options.diffuse = diffuse;
+        options.energy = energy;
+        const CrossField field = solve(patch, options);
+        std::int32_t sum = 0;
+        for (const Singularity& s : field.singularities) sum += s.index;
+        EXPECT_EQ(sum, 4 * (2 - 2 * genus));
+        EXPECT_EQ(gaussBonnetDefect(patch, field), 0);
+      }
+    }
+  }
+}
+
 TEST(ClosedField, OfTinyPatchesExists) {
   const Patch triangle = testing::makePatch({{0, 0, 0}, {1, 0, 0}, {0.5, 0.9, 0}}, {{0, 1, 2}}, 1.0);
   const CrossField field = solve(triangle);

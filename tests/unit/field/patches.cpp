@@ -220,6 +220,61 @@ Patch makeCone(int around, int along, double height, double top) {
   return patch;
 }
 
+Patch makePretzel(int holes, int cells) {
+  // Blocks in three rows, the odd ones of the middle row left out; their outer sides cut into cells.
+  const auto solid = [holes](int i, int j, int k) {
+    const bool inside = i >= 0 && i < 2 * holes + 1 && j >= 0 && j < 3 && k == 0;
+    return inside && !(j == 1 && i % 2 == 1);
+  };
+  std::map<std::array<int, 3>, std::int32_t> number;
+  std::vector<Vec3> positions;
+  Corners triangles;
+  const auto vertex = [&](const std::array<int, 3>& p) {
+    const auto [it, isNew] = number.try_emplace(p, static_cast<std::int32_t>(positions.size()));
+    if (isNew) positions.push_back({1.0 * p[0] / cells, 1.0 * p[1] / cells, 1.0 * p[2] / cells});
+    return it->second;
+  };
+  const auto addSide = [&](const std::array<int, 3>& block, std::size_t axis, int direction) {
+    for (int a = 0; a < cells; ++a) {
+      for (int b = 0; b < cells; ++b) {
+        const auto at = [&](int u, int v) {
+          std::array<int, 3> p{block[0] * cells, block[1] * cells, block[2] * cells};
+          p[axis] += direction > 0 ? cells : 0;
+          p[(axis + 1) % 3] += direction > 0 ? u : v;
+          p[(axis + 2) % 3] += direction > 0 ? v : u;
+          return vertex(p);
+        };
+        triangles.push_back({at(a, b), at(a + 1, b), at(a + 1, b + 1)});
+        triangles.push_back({at(a, b), at(a + 1, b + 1), at(a, b + 1)});
+      }
+    }
+  };
+  for (int i = 0; i < 2 * holes + 1; ++i) {
+    for (int j = 0; j < 3; ++j) {
+      for (std::size_t axis = 0; axis < 3 && solid(i, j, 0); ++axis) {
+        for (const int direction : {-1, 1}) {
+          std::array<int, 3> neighbour{i, j, 0};
+          neighbour[axis] += direction;
+          if (!solid(neighbour[0], neighbour[1], neighbour[2])) addSide({i, j, 0}, axis, direction);
+        }
+      }
+    }
+  }
+  constexpr int kRounding = 12;
+  for (int round = 0; round < kRounding; ++round) {
+    std::vector<Vec3> sum(positions.size());
+    std::vector<double> count(positions.size(), 0.0);
+    for (const auto& corners : triangles) {
+      for (std::size_t c = 0; c < 3; ++c) {
+        sum[static_cast<std::size_t>(corners[c])] += positions[static_cast<std::size_t>(corners[(c + 1) % 3])];
+        count[static_cast<std::size_t>(corners[c])] += 1.0;
+      }
+    }
+    for (std::size_t v = 0; v < positions.size(); ++v) positions[v] = (positions[v] + sum[v] / count[v]) * 0.5;
+  }
+  return makePatch(positions, triangles, 1.0 / cells);
+}
+
 Patch transformed(const Patch& patch, const std::function<Vec3(const Vec3&)>& move) {
   Patch result = patch;
   std::vector<Vec3> positions;

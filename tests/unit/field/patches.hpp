@@ -41,6 +41,9 @@ Patch makeCylinder(int around, int along, double height, double twist = 0.0);
 /// A cone from radius 1 at z = 0 to `top` at the given height. Exact normals.
 Patch makeCone(int around, int along, double height, double top);
 
+/// A rounded slab with the given number of holes through it, closed: a surface of that genus.
+Patch makePretzel(int holes, int cells);
+
 /// The same patch moved in space.
 Patch transformed(const Patch& patch, const std::function<Vec3(const Vec3&)>& move);
 
