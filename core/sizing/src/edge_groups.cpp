@@ -11,12 +11,16 @@
 namespace qmcf {
 namespace {
 
-using Pair = std::pair<std::int32_t, std::int32_t>;
+/// Two edges that should match, and how much they may differ to be matched.
+struct Opposites {
+  std::int32_t first = kNone;
+  std::int32_t second = kNone;
+  double mostRatio = 1.0;
+};
 
-bool alike(double a, double b) {
-  constexpr double kRatio = 1.15;
+bool alike(double a, double b, double mostRatio) {
   constexpr double kDifference = 1.0;
-  return std::fabs(a - b) < kDifference || std::max(a, b) < kRatio * std::min(a, b);
+  return std::fabs(a - b) < kDifference || std::max(a, b) < mostRatio * std::min(a, b);
 }
 
 /// The single edges between the four corners of a face, or nothing.
@@ -40,16 +44,32 @@ bool isRing(const Brep& brep, const BrepFace& face) {
   });
 }
 
+/// In a strip of one or two rows there is no room to change the number of elements from one side to the other.
+double mostRatio(const Brep& brep, const std::vector<double>& wanted, const BrepFace& face, std::int32_t a,
+                 std::int32_t b) {
+  constexpr double kWide = 1.15;
+  constexpr double kNarrow = 1.7;
+  constexpr double kRows = 2.0;
+  const auto sum = [a, b](const auto& of) { return of(static_cast<std::size_t>(a)) + of(static_cast<std::size_t>(b)); };
+  const double length = sum([&](std::size_t e) { return brep.edges[e].length; });
+  const double count = sum([&](std::size_t e) { return wanted[e]; });
+  const double width = 2.0 * face.area / length;
+  return width < kRows * length / count ? kNarrow : kWide;
+}
+
 }  // namespace
 
 std::vector<std::vector<std::int32_t>> oppositeEdges(const Brep& brep, const std::vector<double>& wanted) {
-  std::vector<Pair> pairs;
+  std::vector<Opposites> pairs;
+  const auto add = [&](const BrepFace& face, std::int32_t a, std::int32_t b) {
+    pairs.push_back({a, b, mostRatio(brep, wanted, face, a, b)});
+  };
   for (const BrepFace& face : brep.faces) {
     if (const auto sides = sidesOf(face)) {
-      pairs.emplace_back((*sides)[0], (*sides)[2]);
-      pairs.emplace_back((*sides)[1], (*sides)[3]);
+      add(face, (*sides)[0], (*sides)[2]);
+      add(face, (*sides)[1], (*sides)[3]);
     } else if (isRing(brep, face)) {
-      pairs.emplace_back(face.loops[0].coedges[0].edge, face.loops[1].coedges[0].edge);
+      add(face, face.loops[0].coedges[0].edge, face.loops[1].coedges[0].edge);
     }
   }
   std::vector<std::int32_t> root(brep.edges.size());
@@ -62,12 +82,14 @@ std::vector<std::vector<std::int32_t>> oppositeEdges(const Brep& brep, const std
     }
     return e;
   };
-  for (const auto& [a, b] : pairs) {
-    const std::int32_t ra = find(a);
-    const std::int32_t rb = find(b);
+  for (const Opposites& pair : pairs) {
+    const std::int32_t ra = find(pair.first);
+    const std::int32_t rb = find(pair.second);
     // Alike to each other and to the first of either group, so that a long row of faces can't drift.
-    const auto want = [&wanted](std::int32_t e) { return wanted[static_cast<std::size_t>(e)]; };
-    if (ra == rb || !alike(want(a), want(b)) || !alike(want(ra), want(rb))) continue;
+    const auto fit = [&](std::int32_t e, std::int32_t f) {
+      return alike(wanted[static_cast<std::size_t>(e)], wanted[static_cast<std::size_t>(f)], pair.mostRatio);
+    };
+    if (ra == rb || !fit(pair.first, pair.second) || !fit(ra, rb)) continue;
     root[static_cast<std::size_t>(std::max(ra, rb))] = std::min(ra, rb);
   }
   std::vector<std::vector<std::int32_t>> members(brep.edges.size());

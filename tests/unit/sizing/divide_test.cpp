@@ -105,6 +105,15 @@ TEST(DivideEdges, OppositeSidesOfABoxAgree) {
   }
 }
 
+TEST(DivideEdges, RimsOfANarrowRingAgreeAndThoseOfAWideOneNeedNot) {
+  const Divided narrow = divide(parts::annulus(96, 0.75, 1.0), 0.25);
+  ASSERT_EQ(narrow.edges.edges.size(), 2U);
+  EXPECT_EQ(divisions(narrow, 0), divisions(narrow, 1));
+  const Divided wide = divide(parts::annulus(96, 0.3, 2.0), 0.1);
+  ASSERT_EQ(wide.edges.edges.size(), 2U);
+  EXPECT_GT(std::max(divisions(wide, 0), divisions(wide, 1)), 3 * std::min(divisions(wide, 0), divisions(wide, 1)));
+}
+
 TEST(DivideEdges, SheetsAtANonManifoldEdgeAreEven) {
   for (const double size : {0.13, 0.21, 0.34, 0.55}) {
     const Divided d = divide(parts::tee(), size);
