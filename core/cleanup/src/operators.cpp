@@ -1,8 +1,8 @@
 #include "operators.hpp"
 
 #include <algorithm>
-#include <optional>
 
+#include "cavity.hpp"
 #include "qmcf/mesh/element_shape.hpp"
 #include "qmcf/mesh/loop_fillings.hpp"
 
@@ -30,62 +30,6 @@ double worstAround(const EditMesh& mesh, const std::vector<VertexId>& vertices) 
   double worst = 1.0;
   for (const VertexId v : vertices) worst = std::min(worst, worstShapeAround(mesh, v));
   return worst;
-}
-
-bool contains(const std::vector<FaceId>& faces, FaceId f) { return std::find(faces.begin(), faces.end(), f) != faces.end(); }
-
-/// The boundary of a set of faces as one loop without repeated vertices, or nothing.
-std::optional<std::vector<HalfedgeId>> boundaryLoop(const EditMesh& mesh, const std::vector<FaceId>& faces) {
-  const auto isBorder = [&](HalfedgeId h) {
-    const HalfedgeId t = mesh.twin(h);
-    return !t.valid() || !contains(faces, mesh.face(t));
-  };
-  std::size_t borders = 0;
-  HalfedgeId first;
-  for (const FaceId f : faces) {
-    for (const HalfedgeId h : mesh.sides(f)) {
-      if (!h.valid() || !isBorder(h)) continue;
-      ++borders;
-      if (!first.valid()) first = h;
-    }
-  }
-  if (!first.valid()) return std::nullopt;
-  std::vector<HalfedgeId> loop;
-  std::vector<VertexId> vertices;
-  HalfedgeId h = first;
-  do {
-    loop.push_back(h);
-    const VertexId v = mesh.origin(h);
-    if (std::find(vertices.begin(), vertices.end(), v) != vertices.end()) return std::nullopt;
-    vertices.push_back(v);
-    h = mesh.next(h);
-    while (!isBorder(h)) h = mesh.next(mesh.twin(h));
-  } while (h != first);
-  if (loop.size() != borders) return std::nullopt;
-  return loop;
-}
-
-std::vector<VertexId> cornersOf(const EditMesh& mesh, const std::vector<FaceId>& faces) {
-  std::vector<VertexId> corners;
-  for (const FaceId f : faces) {
-    for (const HalfedgeId h : mesh.sides(f)) {
-      if (h.valid()) corners.push_back(mesh.origin(h));
-    }
-  }
-  std::sort(corners.begin(), corners.end());
-  corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
-  return corners;
-}
-
-/// What a vertex adds to the irregularity energy. A boundary vertex with too few elements has a straight or reflex corner
-/// in one of them, which no relaxation can mend.
-int irregularity(bool boundary, int excess) {
-  constexpr int kReflex = 4;
-  return boundary && excess < 0 ? kReflex * excess * excess : excess * excess;
-}
-
-bool allQuads(const EditMesh& mesh, const std::vector<FaceId>& faces) {
-  return std::all_of(faces.begin(), faces.end(), [&](FaceId f) { return mesh.cornerCount(f) == 4; });
 }
 
 }  // namespace
@@ -194,7 +138,7 @@ bool TopologicalCleanup::refill(const std::vector<FaceId>& cavity) {
     const VertexId v = mesh_.origin(h);
     vertices.push_back(v);
     int inside = 0;
-    mesh_.forEachOutgoing(v, [&](HalfedgeId out) { inside += contains(cavity, mesh_.face(out)) ? 1 : 0; });
+    mesh_.forEachOutgoing(v, [&](HalfedgeId out) { inside += containsFace(cavity, mesh_.face(out)) ? 1 : 0; });
     outside.push_back(excess(v) - inside);
   }
   std::vector<std::pair<int, std::size_t>> better;
@@ -219,7 +163,7 @@ bool TopologicalCleanup::refill(const std::vector<FaceId>& cavity) {
     const LoopFilling& way = ways[better[i].second];
     const std::size_t mark = mesh_.mark();
     const EditMesh::Vertex middle = projectVertex(target_, mesh_.vertex(vertices[0]), centre);
-    mesh_.fill(*loop, cavity, way.cells, way.hasMiddle ? &middle : nullptr);
+    mesh_.fill(*loop, cavity, way.cells, way.hasMiddle ? std::vector{middle} : std::vector<EditMesh::Vertex>{});
     if (settle(vertices, before, mark)) {
       ++statistics_.refills;
       return true;
@@ -249,7 +193,7 @@ bool TopologicalCleanup::refillAround(VertexId v) {
     for (const HalfedgeId h : mesh_.sides(f)) {
       if (!h.valid() || !mesh_.twin(h).valid()) continue;
       const FaceId other = mesh_.face(mesh_.twin(h));
-      if (contains(fan, other)) continue;
+      if (containsFace(fan, other)) continue;
       if (refill({f, other})) return true;
     }
   }
@@ -262,6 +206,7 @@ std::int64_t TopologicalCleanup::pass() {
   for (std::size_t i = 0; i < mesh_.halfedgeCapacity(); ++i) changes += pairTriangles(HalfedgeId(i)) ? 1 : 0;
   for (std::size_t i = 0; i < mesh_.halfedgeCapacity(); ++i) changes += collapseDiagonal(HalfedgeId(i)) ? 1 : 0;
   for (std::size_t i = 0; i < mesh_.vertexCapacity(); ++i) changes += refillAround(VertexId(i)) ? 1 : 0;
+  for (std::size_t i = 0; i < mesh_.vertexCapacity(); ++i) changes += remeshCavity(VertexId(i)) ? 1 : 0;
   return changes;
 }
 

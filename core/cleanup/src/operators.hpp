@@ -28,6 +28,10 @@ class TopologicalCleanup {
   bool collapseDiagonal(HalfedgeId corner);
   bool refill(const std::vector<FaceId>& cavity);
   bool refillAround(VertexId v);
+  bool remeshCavity(VertexId seed);
+  [[nodiscard]] std::vector<int> wantedInside(const std::vector<HalfedgeId>& loop, const std::vector<FaceId>& cavity) const;
+  bool grow(std::vector<FaceId>& cavity, const std::vector<VertexId>& around) const;
+  bool fillCavity(const std::vector<HalfedgeId>& loop, const std::vector<FaceId>& cavity, const std::vector<int>& corners);
   /// Relaxes around the vertices and decides whether the change since mark may stay.
   bool settle(const std::vector<VertexId>& vertices, double worstBefore, std::size_t mark);
 

@@ -115,7 +115,8 @@ std::vector<FaceId> closeLoop(FrontMesh& front, HalfedgeId h, int length, double
     }
   }
   if (best == nullptr) return {};
-  return mesh.fill(loop, *region, best->cells, best->hasMiddle ? &middle : nullptr);
+  return mesh.fill(loop, *region, best->cells,
+                   best->hasMiddle ? std::vector{middle} : std::vector<EditMesh::Vertex>{});
 }
 
 }  // namespace qmcf

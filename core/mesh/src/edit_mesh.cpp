@@ -228,23 +228,24 @@ FaceId EditMesh::fill(const std::vector<HalfedgeId>& boundary, const std::vector
 }
 
 std::vector<FaceId> EditMesh::fill(const std::vector<HalfedgeId>& boundary, const std::vector<FaceId>& region,
-                                   const std::vector<std::array<int, 4>>& cells, const Vertex* middle) {
+                                   const std::vector<std::array<int, 4>>& cells,
+                                   const std::vector<Vertex>& inner) {
   std::vector<VertexId> vertices;
   for (const HalfedgeId h : boundary) vertices.push_back(origin(h));
   clear(boundary, region);
-  if (middle != nullptr) vertices.push_back(addVertex(*middle));
-  std::vector<HalfedgeId> inner;
+  for (const Vertex& vertex : inner) vertices.push_back(addVertex(vertex));
+  std::vector<HalfedgeId> added;
   const auto halfedgeBetween = [&](int from, int to) {
     const auto count = static_cast<int>(boundary.size());
     if (from < count && to == (from + 1) % count) return boundary[static_cast<std::size_t>(from)];
     const VertexId a = vertices[static_cast<std::size_t>(from)];
     const VertexId b = vertices[static_cast<std::size_t>(to)];
-    for (const HalfedgeId h : inner) {
+    for (const HalfedgeId h : added) {
       if (origin(h) == a && origin(twin(h)) == b) return h;
       if (origin(h) == b && origin(twin(h)) == a) return twin(h);
     }
-    inner.push_back(addEdge(a, b));
-    return inner.back();
+    added.push_back(addEdge(a, b));
+    return added.back();
   };
   std::vector<FaceId> faces;
   for (const auto& cell : cells) {
@@ -258,10 +259,9 @@ std::vector<FaceId> EditMesh::fill(const std::vector<HalfedgeId>& boundary, cons
     set(kFaceHalfedge, f.index(), loop[0].value);
     faces.push_back(f);
   }
-  if (middle != nullptr) {
-    for (const HalfedgeId h : inner) {
-      const HalfedgeId out = origin(h) == vertices.back() ? h : twin(h);
-      if (origin(out) == vertices.back()) set(kOutgoing, vertices.back().index(), out.value);
+  for (const HalfedgeId h : added) {
+    for (const HalfedgeId out : {h, twin(h)}) {
+      if (!outgoing(origin(out)).valid()) set(kOutgoing, origin(out).index(), out.value);
     }
   }
   return faces;

@@ -139,7 +139,7 @@ TEST(EditMesh, FillsARegionAndRemovesWhatWasInside) {
   }
   ASSERT_EQ(region.size(), 8U);
   const EditMesh::Vertex middle{{2, 2, 0}, {0, 0, 1}, {}};
-  const auto quads = mesh.fill(boundary, region, {{0, 1, 8, 7}, {1, 2, 3, 8}, {8, 3, 4, 5}, {7, 8, 5, 6}}, &middle);
+  const auto quads = mesh.fill(boundary, region, {{0, 1, 8, 7}, {1, 2, 3, 8}, {8, 3, 4, 5}, {7, 8, 5, 6}}, {middle});
   EXPECT_EQ(quads.size(), 4U);
   EXPECT_FALSE(mesh.alive(VertexId(12)));
   for (const FaceId f : quads) EXPECT_NEAR(faceShape(mesh, f), 1.0, 1e-12);

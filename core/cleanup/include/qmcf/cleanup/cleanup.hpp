@@ -23,6 +23,7 @@ struct CleanupOptions {
 struct CleanupStatistics {
   std::int64_t doublets = 0;        ///< Interior vertices with two elements that were removed.
   std::int64_t refills = 0;         ///< Small cavities that were filled anew.
+  std::int64_t cavities = 0;        ///< Larger ones that were filled with a pattern.
   std::int64_t collapses = 0;       ///< Quads that were closed along a diagonal.
   std::int64_t pairs = 0;           ///< Pairs of triangles that became quads.
   std::int64_t turnedOver = 0;      ///< Elements facing against the surface whose vertices were moved.

@@ -101,9 +101,9 @@ class EditMesh {
   /// region; region: all its faces. Vertices strictly inside are removed.
   FaceId fill(const std::vector<HalfedgeId>& boundary, const std::vector<FaceId>& region, FaceKind kind);
   /// Replaces the faces of a simply connected region by several elements. cells: their corners as indices into the
-  /// boundary's origins, counter-clockwise; the index boundary.size() is a new vertex `middle` (null if not used).
+  /// boundary's origins, counter-clockwise; indices from boundary.size() on are the new vertices `inner`.
   std::vector<FaceId> fill(const std::vector<HalfedgeId>& boundary, const std::vector<FaceId>& region,
-                           const std::vector<std::array<int, 4>>& cells, const Vertex* middle);
+                           const std::vector<std::array<int, 4>>& cells, const std::vector<Vertex>& inner);
   /// Cuts a face in two by an edge between the origins of two of its half-edges that are not neighbours. Returns the new
   /// half-edge from origin(from) to origin(to); its face is new.
   HalfedgeId cut(HalfedgeId from, HalfedgeId to);

@@ -1,0 +1,144 @@
+// Cavity remeshing, after Verma and Suresh 2017: a region around irregular vertices grows until its outline is convex and
+// is then filled with a pattern of at most one irregular vertex.
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include "cavity.hpp"
+#include "operators.hpp"
+#include "qmcf/mesh/element_shape.hpp"
+#include "qmcf/mesh/side_pattern.hpp"
+
+namespace qmcf {
+namespace {
+
+constexpr std::size_t kLargestCavity = 120;
+/// A pattern may leave elements this bad where there were no worse ones before.
+constexpr double kGoodShape = 0.45;
+/// How much of the mean shape a more regular mesh is worth.
+constexpr double kRegularityWorth = 0.03;
+constexpr int kSettleSweeps = 12;
+
+/// How much the number of elements of a cavity may change, and the area that it must keep: what is less bridges a limb.
+constexpr double kCountChange = 0.12;
+constexpr double kAreaKept = 0.95;
+/// Distance from the face, in element sizes, that never matters.
+constexpr double kNear = 0.05;
+
+double meanShape(const EditMesh& mesh, const std::vector<FaceId>& faces) {
+  double sum = 0.0;
+  for (const FaceId f : faces) sum += faceShape(mesh, f);
+  return sum / static_cast<double>(faces.size());
+}
+
+/// How well elements cover the face.
+struct Cover {
+  double area = 0.0;
+  double distance = 0.0;  ///< Of the elements' centres from the face, the largest.
+};
+
+Cover coverOf(const EditMesh& mesh, const TriangleBvh& face, const std::vector<FaceId>& faces) {
+  Cover cover;
+  double largest = 0.0;
+  for (const FaceId f : faces) {
+    const auto sides = mesh.sides(f);
+    const auto p = [&](std::size_t i) -> const Vec3& { return mesh.position(mesh.origin(sides[i])); };
+    cover.area += 0.5 * norm(cross(p(2) - p(0), p(3) - p(1)));
+    largest = std::max(largest, face.closest((p(0) + p(1) + p(2) + p(3)) * 0.25).squaredDistance);
+  }
+  cover.distance = std::sqrt(largest);
+  return cover;
+}
+
+}  // namespace
+
+/// Elements that the cavity would have to have at each vertex of its loop for the vertex to be regular.
+std::vector<int> TopologicalCleanup::wantedInside(const std::vector<HalfedgeId>& loop, const std::vector<FaceId>& cavity) const {
+  std::vector<int> wanted;
+  for (const HalfedgeId h : loop) {
+    const VertexId v = mesh_.origin(h);
+    int inside = 0;
+    mesh_.forEachOutgoing(v, [&](HalfedgeId out) { inside += containsFace(cavity, mesh_.face(out)) ? 1 : 0; });
+    wanted.push_back(inside - excess(v));
+  }
+  return wanted;
+}
+
+/// Adds the faces around the vertices. Returns whether there were any.
+bool TopologicalCleanup::grow(std::vector<FaceId>& cavity, const std::vector<VertexId>& around) const {
+  const std::size_t before = cavity.size();
+  for (const VertexId v : around) {
+    mesh_.forEachOutgoing(v, [&](HalfedgeId h) {
+      if (!containsFace(cavity, mesh_.face(h))) cavity.push_back(mesh_.face(h));
+    });
+  }
+  return cavity.size() > before;
+}
+
+bool TopologicalCleanup::remeshCavity(VertexId seed) {
+  if (!mesh_.alive(seed) || mesh_.isBoundary(seed) || excess(seed) == 0) return false;
+  std::vector<FaceId> cavity;
+  grow(cavity, {seed});
+  while (cavity.size() <= kLargestCavity && allQuads(mesh_, cavity)) {
+    const auto loop = boundaryLoop(mesh_, cavity);
+    if (!loop) return false;
+    const std::vector<int> wanted = wantedInside(*loop, cavity);
+    std::vector<VertexId> blocking;
+    std::vector<VertexId> all;
+    std::vector<int> corners;
+    for (std::size_t i = 0; i < loop->size(); ++i) {
+      all.push_back(mesh_.origin((*loop)[i]));
+      if (wanted[i] == 1) corners.push_back(static_cast<int>(i));
+      if (wanted[i] < 1 || wanted[i] > 2) blocking.push_back(all.back());
+    }
+    if (!blocking.empty()) {
+      if (!grow(cavity, blocking)) return false;
+      continue;
+    }
+    if (fillCavity(*loop, cavity, corners)) return true;
+    if (!grow(cavity, all)) return false;
+  }
+  return false;
+}
+
+bool TopologicalCleanup::fillCavity(const std::vector<HalfedgeId>& loop, const std::vector<FaceId>& cavity,
+                                    const std::vector<int>& corners) {
+  int energy = 0;
+  for (const VertexId v : cornersOf(mesh_, cavity)) energy += irregularity(mesh_.isBoundary(v), excess(v));
+  if (energy <= (corners.size() == 4 ? 0 : 1)) return false;
+  std::vector<Vec3> outline;
+  for (const HalfedgeId h : loop) outline.push_back(mesh_.position(mesh_.origin(h)));
+  const auto pattern = fillSides(outline, corners);
+  if (!pattern) return false;
+  const auto count = static_cast<double>(cavity.size());
+  if (std::fabs(static_cast<double>(pattern->cells.size()) - count) > kCountChange * count + 1.0) return false;
+
+  const double worstBefore = std::min(kGoodShape, worstOf(mesh_, cavity));
+  const double meanBefore = meanShape(mesh_, cavity);
+  const Cover before = coverOf(mesh_, target_.face, cavity);
+  const double size = std::sqrt(before.area / count);
+  // The old inner vertices are good places to project from.
+  std::vector<VertexId> old = cornersOf(mesh_, cavity);
+  std::vector<EditMesh::Vertex> inner;
+  for (const Vec3& p : pattern->inner) {
+    const auto nearest = std::min_element(old.begin(), old.end(), [&](VertexId a, VertexId b) {
+      return squaredNorm(mesh_.position(a) - p) < squaredNorm(mesh_.position(b) - p);
+    });
+    inner.push_back(projectVertex(target_, mesh_.vertex(*nearest), p));
+  }
+  const std::size_t mark = mesh_.mark();
+  const std::vector<FaceId> filled = mesh_.fill(loop, cavity, pattern->cells, inner);
+  const std::vector<VertexId> moving = cornersOf(mesh_, filled);
+  for (int sweep = 0; sweep < kSettleSweeps; ++sweep) relax(mesh_, moving, target_, kGoodShape);
+  const Cover after = coverOf(mesh_, target_.face, filled);
+  const bool covers = after.area >= kAreaKept * before.area && after.distance <= std::max(kNear * size, 1.5 * before.distance);
+  if (covers && worstOf(mesh_, filled) >= worstBefore && meanShape(mesh_, filled) >= meanBefore - kRegularityWorth) {
+    mesh_.commit();
+    ++statistics_.cavities;
+    return true;
+  }
+  mesh_.rollback(mark);
+  return false;
+}
+
+}  // namespace qmcf

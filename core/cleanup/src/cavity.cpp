@@ -1,0 +1,69 @@
+#include "cavity.hpp"
+
+#include <algorithm>
+#include <cstddef>
+
+#include "qmcf/mesh/element_shape.hpp"
+
+namespace qmcf {
+
+bool containsFace(const std::vector<FaceId>& faces, FaceId f) { return std::find(faces.begin(), faces.end(), f) != faces.end(); }
+
+std::optional<std::vector<HalfedgeId>> boundaryLoop(const EditMesh& mesh, const std::vector<FaceId>& faces) {
+  const auto isBorder = [&](HalfedgeId h) {
+    const HalfedgeId t = mesh.twin(h);
+    return !t.valid() || !containsFace(faces, mesh.face(t));
+  };
+  std::size_t borders = 0;
+  HalfedgeId first;
+  for (const FaceId f : faces) {
+    for (const HalfedgeId h : mesh.sides(f)) {
+      if (!h.valid() || !isBorder(h)) continue;
+      ++borders;
+      if (!first.valid()) first = h;
+    }
+  }
+  if (!first.valid()) return std::nullopt;
+  std::vector<HalfedgeId> loop;
+  std::vector<VertexId> vertices;
+  HalfedgeId h = first;
+  do {
+    loop.push_back(h);
+    const VertexId v = mesh.origin(h);
+    if (std::find(vertices.begin(), vertices.end(), v) != vertices.end()) return std::nullopt;
+    vertices.push_back(v);
+    h = mesh.next(h);
+    while (!isBorder(h)) h = mesh.next(mesh.twin(h));
+  } while (h != first);
+  if (loop.size() != borders) return std::nullopt;
+  return loop;
+}
+
+std::vector<VertexId> cornersOf(const EditMesh& mesh, const std::vector<FaceId>& faces) {
+  std::vector<VertexId> corners;
+  for (const FaceId f : faces) {
+    for (const HalfedgeId h : mesh.sides(f)) {
+      if (h.valid()) corners.push_back(mesh.origin(h));
+    }
+  }
+  std::sort(corners.begin(), corners.end());
+  corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
+  return corners;
+}
+
+int irregularity(bool boundary, int excess) {
+  constexpr int kReflex = 4;
+  return boundary && excess < 0 ? kReflex * excess * excess : excess * excess;
+}
+
+bool allQuads(const EditMesh& mesh, const std::vector<FaceId>& faces) {
+  return std::all_of(faces.begin(), faces.end(), [&](FaceId f) { return mesh.cornerCount(f) == 4; });
+}
+
+double worstOf(const EditMesh& mesh, const std::vector<FaceId>& faces) {
+  double worst = 1.0;
+  for (const FaceId f : faces) worst = std::min(worst, faceShape(mesh, f));
+  return worst;
+}
+
+}  // namespace qmcf
