@@ -17,6 +17,8 @@ constexpr std::size_t kLargestCavity = 120;
 constexpr double kGoodShape = 0.45;
 /// How much of the mean shape a more regular mesh is worth.
 constexpr double kRegularityWorth = 0.03;
+constexpr double kNoTriangleWorth = 0.1;
+constexpr int kTriangleEnergy = 4;
 constexpr int kSettleSweeps = 12;
 
 /// How much the number of elements of a cavity may change, and the area that it must keep: what is less bridges a limb.
@@ -42,12 +44,19 @@ Cover coverOf(const EditMesh& mesh, const TriangleBvh& face, const std::vector<F
   double largest = 0.0;
   for (const FaceId f : faces) {
     const auto sides = mesh.sides(f);
-    const auto p = [&](std::size_t i) -> const Vec3& { return mesh.position(mesh.origin(sides[i])); };
+    // A triangle counts as a quad with its last corner twice.
+    const auto p = [&](std::size_t i) -> const Vec3& { return mesh.position(mesh.origin(sides[sides[i].valid() ? i : 2])); };
     cover.area += 0.5 * norm(cross(p(2) - p(0), p(3) - p(1)));
-    largest = std::max(largest, face.closest((p(0) + p(1) + p(2) + p(3)) * 0.25).squaredDistance);
+    const Vec3 centre = (p(0) + p(1) + p(2) + (sides[3].valid() ? p(3) : Vec3{})) / (sides[3].valid() ? 4.0 : 3.0);
+    largest = std::max(largest, face.closest(centre).squaredDistance);
   }
   cover.distance = std::sqrt(largest);
   return cover;
+}
+
+std::size_t triangleCount(const EditMesh& mesh, const std::vector<FaceId>& faces) {
+  return static_cast<std::size_t>(
+      std::count_if(faces.begin(), faces.end(), [&](FaceId f) { return mesh.cornerCount(f) == 3; }));
 }
 
 }  // namespace
@@ -76,10 +85,12 @@ bool TopologicalCleanup::grow(std::vector<FaceId>& cavity, const std::vector<Ver
 }
 
 bool TopologicalCleanup::remeshCavity(VertexId seed) {
-  if (!mesh_.alive(seed) || mesh_.isBoundary(seed) || excess(seed) == 0) return false;
+  if (!mesh_.alive(seed)) return false;
   std::vector<FaceId> cavity;
   grow(cavity, {seed});
-  while (cavity.size() <= kLargestCavity && allQuads(mesh_, cavity)) {
+  const int off = excess(seed);
+  if (allQuads(mesh_, cavity) && (mesh_.isBoundary(seed) ? off >= 0 : off == 0)) return false;
+  while (cavity.size() <= kLargestCavity) {
     const auto loop = boundaryLoop(mesh_, cavity);
     if (!loop) return false;
     const std::vector<int> wanted = wantedInside(*loop, cavity);
@@ -105,15 +116,17 @@ bool TopologicalCleanup::fillCavity(const std::vector<HalfedgeId>& loop, const s
                                     const std::vector<int>& corners) {
   int energy = 0;
   for (const VertexId v : cornersOf(mesh_, cavity)) energy += irregularity(mesh_.isBoundary(v), excess(v));
-  if (energy <= (corners.size() == 4 ? 0 : 1)) return false;
+  const std::size_t triangles = triangleCount(mesh_, cavity);
+  energy += kTriangleEnergy * static_cast<int>(triangles);
+  if (triangles % 2 != 0 || energy <= (corners.size() == 4 ? 0 : 1)) return false;
   std::vector<Vec3> outline;
   for (const HalfedgeId h : loop) outline.push_back(mesh_.position(mesh_.origin(h)));
   const auto pattern = fillSides(outline, corners);
   if (!pattern) return false;
-  const auto count = static_cast<double>(cavity.size());
+  const double count = static_cast<double>(cavity.size()) - 0.5 * static_cast<double>(triangles);
   if (std::fabs(static_cast<double>(pattern->cells.size()) - count) > kCountChange * count + 1.0) return false;
 
-  const double worstBefore = std::min(kGoodShape, worstOf(mesh_, cavity));
+  const double worstBefore = std::min(triangles > 0 ? options_.leastShape : kGoodShape, worstOf(mesh_, cavity));
   const double meanBefore = meanShape(mesh_, cavity);
   const Cover before = coverOf(mesh_, target_.face, cavity);
   const double size = std::sqrt(before.area / count);
@@ -131,8 +144,9 @@ bool TopologicalCleanup::fillCavity(const std::vector<HalfedgeId>& loop, const s
   const std::vector<VertexId> moving = cornersOf(mesh_, filled);
   for (int sweep = 0; sweep < kSettleSweeps; ++sweep) relax(mesh_, moving, target_, kGoodShape);
   const Cover after = coverOf(mesh_, target_.face, filled);
+  const double worth = triangles > 0 ? kNoTriangleWorth : kRegularityWorth;
   const bool covers = after.area >= kAreaKept * before.area && after.distance <= std::max(kNear * size, 1.5 * before.distance);
-  if (covers && worstOf(mesh_, filled) >= worstBefore && meanShape(mesh_, filled) >= meanBefore - kRegularityWorth) {
+  if (covers && worstOf(mesh_, filled) >= worstBefore && meanShape(mesh_, filled) >= meanBefore - worth) {
     mesh_.commit();
     ++statistics_.cavities;
     return true;

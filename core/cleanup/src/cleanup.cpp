@@ -80,12 +80,21 @@ Result<CleanupResult> cleanUp(const FaceMesh& mesh, const Patch& patch, const Tr
     return vertices;
   };
   constexpr double kEnough = 0.6;
+  constexpr std::int32_t kSmallRounds = 2;
+  constexpr int kCavityPasses = 2;
+  int cavityPasses = 0;
   for (std::int32_t round = 0; options.topology && round < options.rounds; ++round) {
     if (!progress.report(Stage::cleanup, 0.7 * round / options.rounds)) return cancelledError();
     const auto vertices = allVertices();
     for (int sweep = 0; sweep < 3; ++sweep) relax(work, vertices, where, kEnough);
     work.commit();
-    if (topology.pass() == 0) break;
+    std::int64_t changes = topology.pass();
+    const bool settled = changes == 0 || round == kSmallRounds;
+    if (settled && cavityPasses < kCavityPasses) {
+      ++cavityPasses;
+      changes += topology.cavityPass();
+    }
+    if (changes == 0) break;
   }
   const auto vertices = allVertices();
   for (std::int32_t sweep = 0; sweep < options.sweeps; ++sweep) {

@@ -206,6 +206,11 @@ std::int64_t TopologicalCleanup::pass() {
   for (std::size_t i = 0; i < mesh_.halfedgeCapacity(); ++i) changes += pairTriangles(HalfedgeId(i)) ? 1 : 0;
   for (std::size_t i = 0; i < mesh_.halfedgeCapacity(); ++i) changes += collapseDiagonal(HalfedgeId(i)) ? 1 : 0;
   for (std::size_t i = 0; i < mesh_.vertexCapacity(); ++i) changes += refillAround(VertexId(i)) ? 1 : 0;
+  return changes;
+}
+
+std::int64_t TopologicalCleanup::cavityPass() {
+  std::int64_t changes = 0;
   for (std::size_t i = 0; i < mesh_.vertexCapacity(); ++i) changes += remeshCavity(VertexId(i)) ? 1 : 0;
   return changes;
 }

@@ -16,8 +16,11 @@ class TopologicalCleanup {
  public:
   TopologicalCleanup(EditMesh& mesh, const Patch& patch, const RelaxationTarget& target, const CleanupOptions& options);
 
-  /// One pass of all operators over the mesh. Returns the number of changes.
+  /// One pass of the small operators over the mesh. Returns the number of changes.
   std::int64_t pass();
+  /// One pass of cavity remeshing, for a mesh on which the small operators have done what they can. Returns the number of
+  /// changes.
+  std::int64_t cavityPass();
   [[nodiscard]] const CleanupStatistics& statistics() const { return statistics_; }
 
  private:
