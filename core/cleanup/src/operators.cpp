@@ -10,6 +10,9 @@ namespace qmcf {
 namespace {
 
 constexpr int kSettleSweeps = 4;
+/// Where an element is poor, a change that makes nothing more regular is welcome if the worst shape gains this much.
+constexpr double kPoor = 0.4;
+constexpr double kWorthwhile = 0.08;
 
 std::vector<VertexId> withNeighbours(const EditMesh& mesh, const std::vector<VertexId>& vertices) {
   std::vector<VertexId> all = vertices;
@@ -44,10 +47,10 @@ int TopologicalCleanup::excess(VertexId v) const {
   return elements - (mesh_.isBoundary(v) ? patch_.cornerQuads[v] : 4);
 }
 
-bool TopologicalCleanup::settle(const std::vector<VertexId>& vertices, double worstBefore, std::size_t mark) {
+bool TopologicalCleanup::settle(const std::vector<VertexId>& vertices, double least, std::size_t mark) {
   const std::vector<VertexId> moving = withNeighbours(mesh_, vertices);
   for (int sweep = 0; sweep < kSettleSweeps; ++sweep) relax(mesh_, moving, target_, options_.leastShape);
-  if (worstAround(mesh_, vertices) >= std::min(options_.leastShape, worstBefore)) {
+  if (worstAround(mesh_, vertices) >= least) {
     mesh_.commit();
     return true;
   }
@@ -67,7 +70,7 @@ bool TopologicalCleanup::removeDoublet(VertexId v) {
   const std::size_t mark = mesh_.mark();
   const double before = worstAround(mesh_, vertices);
   mesh_.fill(*loop, cavity, FaceKind::element);
-  if (!settle(vertices, before, mark)) return false;
+  if (!settle(vertices, std::min(options_.leastShape, before), mark)) return false;
   ++statistics_.doublets;
   return true;
 }
@@ -82,7 +85,7 @@ bool TopologicalCleanup::pairTriangles(HalfedgeId h) {
   const std::size_t mark = mesh_.mark();
   const double before = worstAround(mesh_, vertices);
   mesh_.fill(loop, {mesh_.face(h), mesh_.face(t)}, FaceKind::element);
-  if (!settle(vertices, before, mark)) return false;
+  if (!settle(vertices, std::min(options_.leastShape, before), mark)) return false;
   ++statistics_.pairs;
   return true;
 }
@@ -118,7 +121,7 @@ bool TopologicalCleanup::collapseDiagonal(HalfedgeId corner) {
   const Vec3 middle = (mesh_.position(a) + mesh_.position(c)) * 0.5;
   mesh_.collapse(diagonal);
   if (!mesh_.isBoundary(a)) mesh_.setVertex(a, projectVertex(target_, mesh_.vertex(a), middle));
-  if (!settle(vertices, worstBefore, mark)) return false;
+  if (!settle(vertices, std::min(options_.leastShape, worstBefore), mark)) return false;
   ++statistics_.collapses;
   return true;
 }
@@ -141,6 +144,7 @@ bool TopologicalCleanup::refill(const std::vector<FaceId>& cavity) {
     mesh_.forEachOutgoing(v, [&](HalfedgeId out) { inside += containsFace(cavity, mesh_.face(out)) ? 1 : 0; });
     outside.push_back(excess(v) - inside);
   }
+  const bool isPoor = worstOf(mesh_, cavity) < kPoor;
   std::vector<std::pair<int, std::size_t>> better;
   for (std::size_t w = 0; w < ways.size(); ++w) {
     std::vector<int> count = outside;
@@ -152,7 +156,7 @@ bool TopologicalCleanup::refill(const std::vector<FaceId>& cavity) {
     for (std::size_t i = 0; i < count.size(); ++i) {
       energy += irregularity(i < vertices.size() && mesh_.isBoundary(vertices[i]), count[i]);
     }
-    if (energy < energyBefore) better.emplace_back(energy, w);
+    if (energy < energyBefore || (isPoor && energy == energyBefore)) better.emplace_back(energy, w);
   }
   std::sort(better.begin(), better.end());
   const double before = worstAround(mesh_, vertices);
@@ -164,7 +168,8 @@ bool TopologicalCleanup::refill(const std::vector<FaceId>& cavity) {
     const std::size_t mark = mesh_.mark();
     const EditMesh::Vertex middle = projectVertex(target_, mesh_.vertex(vertices[0]), centre);
     mesh_.fill(*loop, cavity, way.cells, way.hasMiddle ? std::vector{middle} : std::vector<EditMesh::Vertex>{});
-    if (settle(vertices, before, mark)) {
+    const bool sameEnergy = better[i].first == energyBefore;
+    if (settle(vertices, sameEnergy ? before + kWorthwhile : std::min(options_.leastShape, before), mark)) {
       ++statistics_.refills;
       return true;
     }
@@ -176,7 +181,11 @@ bool TopologicalCleanup::refillAround(VertexId v) {
   if (!mesh_.alive(v) || excess(v) == 0) return false;
   // The fan of an inner vertex, then each pair and triple of neighbouring quads of the vertex.
   std::vector<FaceId> fan;
-  mesh_.forEachOutgoing(v, [&](HalfedgeId h) { fan.push_back(mesh_.face(h)); });
+  std::vector<HalfedgeId> spokes;
+  mesh_.forEachOutgoing(v, [&](HalfedgeId h) {
+    fan.push_back(mesh_.face(h));
+    spokes.push_back(h);
+  });
   const bool closed = !mesh_.isBoundary(v);
   if (closed && fan.size() <= 5 && refill(fan)) return true;
   for (std::size_t width : {std::size_t{2}, std::size_t{3}}) {
@@ -187,6 +196,16 @@ bool TopologicalCleanup::refillAround(VertexId v) {
       for (std::size_t k = 0; k < width; ++k) cavity.push_back(fan[(i + k) % fan.size()]);
       if (refill(cavity)) return true;
     }
+  }
+  // The fans of two irregular neighbours together.
+  for (std::size_t i = 0; closed && i < fan.size(); ++i) {
+    const VertexId other = mesh_.target(spokes[i]);
+    if (mesh_.isBoundary(other) || excess(other) == 0) continue;
+    std::vector<FaceId> cavity = fan;
+    mesh_.forEachOutgoing(other, [&](HalfedgeId h) {
+      if (!containsFace(cavity, mesh_.face(h))) cavity.push_back(mesh_.face(h));
+    });
+    if (refill(cavity)) return true;
   }
   // Each quad of the vertex with its neighbours on the far side.
   for (const FaceId f : fan) {

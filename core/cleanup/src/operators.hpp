@@ -35,8 +35,8 @@ class TopologicalCleanup {
   [[nodiscard]] std::vector<int> wantedInside(const std::vector<HalfedgeId>& loop, const std::vector<FaceId>& cavity) const;
   bool grow(std::vector<FaceId>& cavity, const std::vector<VertexId>& around) const;
   bool fillCavity(const std::vector<HalfedgeId>& loop, const std::vector<FaceId>& cavity, const std::vector<int>& corners);
-  /// Relaxes around the vertices and decides whether the change since mark may stay.
-  bool settle(const std::vector<VertexId>& vertices, double worstBefore, std::size_t mark);
+  /// Relaxes around the vertices and keeps the change since mark if no element there has a shape below `least`.
+  bool settle(const std::vector<VertexId>& vertices, double least, std::size_t mark);
 
   EditMesh& mesh_;
   const Patch& patch_;
