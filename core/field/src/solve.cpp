@@ -81,9 +81,7 @@ Result<FieldVector> solveLeastSquares(const FieldMatrices& matrices, const Field
   FieldVector field = conditions.value;
   if (free.size() == 0) return field;
   const FieldMatrix system = matrices.energy - (shift - smallShift(matrices)) * matrices.mass;
-  FieldVector q = conditions.guide.cwiseProduct(conditions.pull.cast<Complex>());
-  const double length = std::sqrt(q.dot(matrices.mass * q).real());
-  if (length > 0.0) q /= length;
+  const FieldVector q = conditions.guide.cwiseProduct(conditions.pull.cast<Complex>());
   const FieldMatrix columns = free.columns(system);
   const FieldMatrix adjoint = columns.adjoint();
   const FieldMatrix square = adjoint * columns;

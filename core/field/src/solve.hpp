@@ -37,7 +37,7 @@ struct DiffusionSchedule {
 Result<FieldVector> solveEliminated(const FieldMatrices& matrices, const FieldConditions& conditions);
 
 /// The paper's system (3.2.2): least squares of (A - shift M) u = M q over the unknowns, with every row kept. q is the
-/// guide weighted by the pull, of length 1. \pre conditions.any(). Errors: internal.
+/// guide weighted by the pull. \pre conditions.any(). Errors: internal.
 Result<FieldVector> solveLeastSquares(const FieldMatrices& matrices, const FieldConditions& conditions, double shift);
 
 /// The unit vector of least energy where nothing is pinned and nothing pulls, by inverse iteration.

@@ -11,7 +11,7 @@
 #include <span>
 #include <sstream>
 
-#include "qmcf/field/spaced_streamlines.hpp"
+#include "qmcf/field/even_streamlines.hpp"
 #include "qmcf/io/read.hpp"
 #include "qmcf/pipeline/mesh_surface.hpp"
 #include "study_measures.hpp"
@@ -157,11 +157,9 @@ Json drawingOf(const FieldResult& part, const Run& run, double spacing) {
       drawing["edges"].push_back({point(patch.surface.position(patch.surface.origin(h))),
                                   point(patch.surface.position(patch.surface.target(h)))});
     }
-    SpacedStreamlinesOptions options;
-    options.spacing = spacing;
-    for (const Streamline& line : spacedStreamlines(patch, field, options)) {
+    for (const std::vector<Vec3>& line : evenStreamlines(patch, field, spacing * part.size)) {
       Json points = Json::array();
-      for (const SurfacePoint& p : line.points) points.push_back(point(positionOf(patch.surface, p)));
+      for (const Vec3& p : line) points.push_back(point(p));
       drawing["lines"].push_back(std::move(points));
     }
     for (const Singularity& s : field.singularities) {

@@ -2,13 +2,10 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 
 #include "field/patches.hpp"
-#include "qmcf/field/spaced_streamlines.hpp"
 
 namespace qmcf {
 namespace {
@@ -63,41 +60,6 @@ TEST(Streamline, ClosesAroundCylinder) {
   const Streamline line = traceStreamline(patch.surface, field, start, around, {.length = turn});
   EXPECT_EQ(line.end, StreamlineEnd::length);
   EXPECT_LT(distance(positionOf(patch.surface, line.points.back()), from), 0.02);
-}
-
-TEST(SpacedStreamlines, CoverSquareWithBothFamilies) {
-  const Patch patch = testing::makeSquare(20);
-  const double spacing = 3.0 / 20;
-  const std::vector<Streamline> lines = spacedStreamlines(patch, solve(patch), {.spacing = 3.0});
-  std::array<std::vector<double>, 2> places;  // x of the vertical lines, y of the horizontal ones
-  for (const Streamline& line : lines) {
-    const Vec3 a = positionOf(patch.surface, line.points.front());
-    const Vec3 b = positionOf(patch.surface, line.points.back());
-    EXPECT_NEAR(line.length, 1.0, 1e-6);  // From side to side.
-    EXPECT_NEAR(distance(a, b), 1.0, 1e-6);
-    if (std::fabs(a.x - b.x) < 1e-6) {
-      places[0].push_back(a.x);
-    } else {
-      places[1].push_back(a.y);
-    }
-  }
-  for (std::vector<double>& family : places) {
-    std::sort(family.begin(), family.end());
-    ASSERT_GE(family.size(), 4U);
-    EXPECT_LT(family.front(), spacing);
-    EXPECT_GT(family.back(), 1.0 - spacing);
-    for (std::size_t i = 1; i < family.size(); ++i) {
-      EXPECT_GT(family[i] - family[i - 1], 0.99 * spacing);
-      EXPECT_LT(family[i] - family[i - 1], 2.01 * spacing);
-    }
-  }
-}
-
-TEST(SpacedStreamlines, RunAroundTorusOnce) {
-  const Patch patch = testing::makeTorus(60, 24, 0.4);
-  const std::vector<Streamline> lines = spacedStreamlines(patch, solve(patch), {.spacing = 3.0});
-  ASSERT_GE(lines.size(), 10U);
-  for (const Streamline& line : lines) EXPECT_LT(line.length, 1.1 * 2.0 * std::numbers::pi * 1.4);
 }
 
 }  // namespace

@@ -16,10 +16,9 @@ inline constexpr double kMorphTriangleSize = 1.13;
 
 /// How the original advancing front of one face works. Angles in radians.
 struct MorphOptions {
-  double sideAngle =
-      0.5235987755982988;  ///< An edge within this of the bisector serves as a side edge (epsilon, pi/6).
-  double busySeam = 0.12566370614359174;  ///< Front angle that is closed by a seam where five quads or more meet.
-  double seam = 0.2827433388230814;       ///< The same where fewer quads meet.
+  double sideAngle = 0.5235987755982988;  ///< An edge this near to the bisector serves as a side edge (pi/6).
+  double busySeam = 0.1256637061435917;   ///< Front angle that is closed by a seam where five quads or more meet.
+  double seam = 0.7;                      ///< The same where fewer quads meet.
   double largestRatio = 2.5;              ///< Neighbouring front edges that differ more in length need a transition.
 };
 
