@@ -259,8 +259,8 @@ std::vector<FaceId> EditMesh::fill(const std::vector<HalfedgeId>& boundary, cons
     set(kFaceHalfedge, f.index(), loop[0].value);
     faces.push_back(f);
   }
-  for (const HalfedgeId h : added) {
-    for (const HalfedgeId out : {h, twin(h)}) {
+  for (std::size_t i = added.size(); i-- > 0;) {
+    for (const HalfedgeId out : {added[i], twin(added[i])}) {
       if (!outgoing(origin(out)).valid()) set(kOutgoing, origin(out).index(), out.value);
     }
   }
