@@ -140,12 +140,13 @@ std::optional<Error> assign(Mode& option, std::string_view name, const val& give
 /// Calls visit(name, field) for every option. The structured binding fails to compile when MeshOptions gains a field.
 template <class Visit>
 void forEachOption(MeshOptions& options, Visit visit) {
-  auto& [size, quads, featureAngle, mode, gradation, alignBoundary, alignSharp, alignNonManifold, alignCurvature] =
+  auto& [size, quads, featureAngle, mode, repair, gradation, alignBoundary, alignSharp, alignNonManifold, alignCurvature] =
       options;
   visit("size", size);
   visit("quads", quads);
   visit("featureAngle", featureAngle);
   visit("mode", mode);
+  visit("repair", repair);
   visit("gradation", gradation);
   visit("alignBoundary", alignBoundary);
   visit("alignSharp", alignSharp);
@@ -349,7 +350,7 @@ val run(const val& input, const val& options, Stage stage, ToValue toValue) {
 
 val inspectModel(const val& input, const val& options) {
   const auto inspect = [](const TriangleMesh& mesh, const MeshOptions& o, Progress& progress) {
-    return inspectSurface(mesh, o.featureAngle, progress);
+    return inspectSurface(mesh, o, progress);
   };
   return run(input, options, inspect, partValue);
 }

@@ -22,6 +22,8 @@ export interface MeshOptions {
   quads?: number | undefined;
   /** Dihedral angle in degrees, between 0 and 180, from which an edge is sharp. Default 30. */
   featureAngle?: number | undefined;
+  /** False: defects of the input are reported and left as they are. Default true. */
+  repair?: boolean | undefined;
   /** Default `qmcf`. */
   mode?: Mode | undefined;
   /** Largest slope of the size field, above 0 and at most 1. Default 0.2. */
@@ -41,6 +43,7 @@ export const meshOptionNames = [
   'size',
   'quads',
   'featureAngle',
+  'repair',
   'mode',
   'gradation',
   'alignBoundary',
