@@ -140,7 +140,8 @@ std::optional<Error> assign(Mode& option, std::string_view name, const val& give
 /// Calls visit(name, field) for every option. The structured binding fails to compile when MeshOptions gains a field.
 template <class Visit>
 void forEachOption(MeshOptions& options, Visit visit) {
-  auto& [size, quads, featureAngle, mode, repair, gradation, alignBoundary, alignSharp, alignNonManifold, alignCurvature] =
+  auto& [size,       quads,         featureAngle, mode,             repair,
+         gradation,  alignBoundary, alignSharp,   alignNonManifold, alignCurvature] =
       options;
   visit("size", size);
   visit("quads", quads);
