@@ -192,12 +192,21 @@ export interface Singularities {
   readonly faces: Int32Array;
 }
 
+/** Lines along the crosses at even distances, an element or more, for pictures. */
+export interface Streamlines {
+  /** x, y, z of the points of all lines, one line after the other. */
+  readonly positions: Float64Array;
+  /** Line `l` has the points `offsets[l]` up to, not including, `offsets[l + 1]`. */
+  readonly offsets: Int32Array;
+}
+
 /** The cross field of every face. */
 export interface FieldResult {
   /** The element size that the field was made for. */
   readonly size: number;
   readonly crosses: Crosses;
   readonly singularities: Singularities;
+  readonly streamlines: Streamlines;
 }
 
 /** Mean, worst and quantiles of one metric over the elements; null where there is no finite value. */
