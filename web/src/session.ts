@@ -54,6 +54,8 @@ export class Session {
       this.store.update({
         mesh: { result, optionsKey: optionsKey(settings), seconds },
         view: 'mesh',
+        hover: undefined,
+        chosen: undefined,
         status: `${parts.join(' and ')} in ${format.duration(seconds)}.`,
       });
     });
@@ -89,6 +91,8 @@ export class Session {
         settings: sized,
         field: undefined,
         mesh: undefined,
+        hover: undefined,
+        chosen: undefined,
         view: 'part',
         display: { ...this.store.state.display, crosses: false },
         galleryOpen: false,
@@ -100,7 +104,15 @@ export class Session {
   /** Shows the part, its field or its mesh. */
   setView(view: View): void {
     const { display } = this.store.state;
-    this.store.update({ view, display: { ...display, crosses: view === 'field' } });
+    // Elements are seen in the mesh only; faces and edges everywhere.
+    const { chosen } = this.store.state;
+    const stays = chosen?.kind !== 'element' || view === 'mesh';
+    this.store.update({
+      view,
+      display: { ...display, crosses: view === 'field' },
+      hover: undefined,
+      chosen: stays ? chosen : undefined,
+    });
   }
 
   /** Lays the crosses over what is seen. */
@@ -126,7 +138,12 @@ export class Session {
       await this.run('open', 'The edges could not be found', async (mesher, control) => {
         const { featureAngle } = settings;
         const part = await mesher.inspect(model.bytes, { featureAngle }, control);
-        this.store.update({ model: { ...model, part, featureAngle }, status: 'Edges found again.' });
+        this.store.update({
+          model: { ...model, part, featureAngle },
+          hover: undefined,
+          chosen: undefined,
+          status: 'Edges found again.',
+        });
       });
       return;
     }

@@ -27,9 +27,26 @@ export interface Settings {
   readonly alignCurvature: boolean;
 }
 
+/** A face or edge of the part, or an element of the mesh. */
+export interface Target {
+  readonly kind: 'face' | 'edge' | 'element';
+  readonly id: number;
+}
+
+/** What the pointer is on, and where that is in the window, in CSS pixels. */
+export interface Hover {
+  readonly target: Target;
+  readonly x: number;
+  readonly y: number;
+}
+
 /** What is drawn besides the view itself. */
 export interface Display {
   readonly crosses: boolean;
+  /** Lines along the field instead of crosses. */
+  readonly streamlines: boolean;
+  /** What pins the field, by kind, and the pins that were taken back. */
+  readonly constraints: boolean;
   readonly faceColors: boolean;
   readonly irregular: boolean;
   readonly quality: boolean;
@@ -65,6 +82,9 @@ export interface State {
   readonly display: Display;
   readonly field: Made<FieldResult> | undefined;
   readonly mesh: Made<MeshResult> | undefined;
+  readonly hover: Hover | undefined;
+  /** What was clicked on or looked up. */
+  readonly chosen: Target | undefined;
   readonly running: Running | undefined;
   readonly message: Message | undefined;
   /** One line on what happened last. */
@@ -85,9 +105,11 @@ export const initialState: State = {
     alignCurvature: true,
   },
   view: 'part',
-  display: { crosses: false, faceColors: true, irregular: false, quality: false },
+  display: { crosses: false, streamlines: false, constraints: false, faceColors: true, irregular: false, quality: false },
   field: undefined,
   mesh: undefined,
+  hover: undefined,
+  chosen: undefined,
   running: undefined,
   message: undefined,
   status: 'Open a part to begin.',
