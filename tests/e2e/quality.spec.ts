@@ -1,6 +1,7 @@
 // The quality of a mesh on the page: colours, histogram, the worst element, and how each face was meshed.
+import { readFileSync } from 'node:fs';
 import { expect, test } from '@playwright/test';
-import { App, native } from './page.js';
+import { App, native, sample } from './page.js';
 
 test('the worst element is found, told and looked at', async ({ page }, info) => {
   await page.goto('./');
@@ -50,6 +51,25 @@ test('the histogram counts every element, and triangles are marked', async ({ pa
   } else {
     await expect(rows).toHaveCount(0);
   }
+});
+
+test('the original Q-Morph can be compared with', async ({ page }, info) => {
+  await page.goto('./');
+  const app = new App(page);
+  await app.openSample('cylinder.obj');
+  await page.getByText('Features and directions').click();
+  await page.getByLabel('Advancing front').selectOption('qmorph');
+  await app.mesh(400);
+  await expect(page.getByRole('region', { name: 'Result' })).toContainText('All 3 faces were meshed by the original Q-Morph.');
+  const saved = page.waitForEvent('download');
+  await app.download.click();
+  const path = info.outputPath('page.obj');
+  await (await saved).saveAs(path);
+  const reference = info.outputPath('native.obj');
+  native('mesh', sample('cylinder.obj'), '-o', reference, '--quads', '400', '--mode', 'qmorph', '--quiet');
+  expect(readFileSync(path).equals(readFileSync(reference))).toBe(true);
+  await page.getByLabel('Advancing front').selectOption('qmcf');
+  await expect(page.getByText('The settings have changed since this mesh was made.')).toBeVisible();
 });
 
 test('the report says how the faces were meshed, and an element says on which face it lies', async ({ page }) => {

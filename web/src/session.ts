@@ -2,7 +2,7 @@ import { createMesher, QmcfError, type Mesher, type OutputFormat, type ProgressR
 import * as format from './format.js';
 import type { Sample } from './samples.js';
 import { stageLabel, TaskProgress } from './stages.js';
-import { linkSizes, optionsKey, optionsOf, type Running, type Settings, type State, type Store, type View } from './state.js';
+import { fieldSettings, linkSizes, optionsKey, optionsOf, type Running, type Settings, type State, type Store, type View } from './state.js';
 
 /** Everything that is done with the core: opens parts, computes fields and meshes, one at a time. */
 export class Session {
@@ -149,11 +149,11 @@ export class Session {
     }
     await this.run('field', 'The cross field could not be computed', async (mesher, control) => {
       const start = performance.now();
-      const result = await mesher.field(model.bytes, optionsOf(settings), control);
+      const result = await mesher.field(model.bytes, optionsOf(fieldSettings(settings)), control);
       const seconds = (performance.now() - start) / 1000;
       const singular = format.counted(result.singularities.indices.length, 'singularity', 'singularities');
       this.store.update({
-        field: { result, optionsKey: optionsKey(settings), seconds },
+        field: { result, optionsKey: optionsKey(fieldSettings(settings)), seconds },
         status: `Cross field with ${singular} in ${format.duration(seconds)}.`,
       });
     });
@@ -226,7 +226,7 @@ function needsUpkeep({ model, settings, field, display, running }: State): boole
     return false;
   }
   const featuresOld = model.featureAngle !== settings.featureAngle;
-  const fieldOld = display.crosses && field?.optionsKey !== optionsKey(settings);
+  const fieldOld = display.crosses && field?.optionsKey !== optionsKey(fieldSettings(settings));
   return featuresOld || fieldOld;
 }
 

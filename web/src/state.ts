@@ -1,4 +1,4 @@
-import type { FieldResult, InspectResult, MeshOptions, MeshResult } from 'qmcf';
+import type { FieldResult, InspectResult, MeshOptions, MeshResult, Mode } from 'qmcf';
 
 /** What the viewport shows. */
 export type View = 'part' | 'field' | 'mesh';
@@ -21,6 +21,7 @@ export interface Settings {
   readonly size: number;
   readonly quads: number;
   readonly featureAngle: number;
+  readonly mode: Mode;
   readonly alignBoundary: boolean;
   readonly alignSharp: boolean;
   readonly alignNonManifold: boolean;
@@ -99,6 +100,7 @@ export const initialState: State = {
     size: 0,
     quads: 3000,
     featureAngle: 30,
+    mode: 'qmcf',
     alignBoundary: true,
     alignSharp: true,
     alignNonManifold: true,
@@ -120,6 +122,11 @@ export const initialState: State = {
 export function optionsOf(settings: Settings): MeshOptions {
   const { sizedBy, size, quads, ...rest } = settings;
   return sizedBy === 'size' ? { ...rest, size } : { ...rest, quads };
+}
+
+/** The same for the field, which is there in one mode only. */
+export function fieldSettings(settings: Settings): Settings {
+  return { ...settings, mode: 'qmcf' };
 }
 
 /** Equal for settings that give equal results. */
