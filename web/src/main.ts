@@ -57,20 +57,22 @@ function createViewer(): Viewer | undefined {
 }
 
 /** The viewport without the panel, which covers its left side or, on a small screen, its lower part. */
+function measureFreeArea(): void {
+  const { clientWidth: width, clientHeight: height } = canvas;
+  const covered = panel.getBoundingClientRect();
+  const isSheet = covered.width > 0.9 * width;
+  // On a small screen the switches are below the view bar, else in a corner.
+  const bar = (isSheet ? display.firstElementChild! : views).getBoundingClientRect().bottom;
+  const left = isSheet ? 0 : covered.right;
+  const bottom = isSheet ? covered.top : height;
+  selection.style.setProperty('--left', `${left}px`);
+  selection.style.setProperty('--bottom', `${height - bottom}px`);
+  viewer?.setFreeArea({ left, top: bar, width: Math.max(80, width - left), height: Math.max(80, bottom - bar) });
+}
+
+/** Measures it again whenever something that covers the viewport changes. */
 function trackFreeArea(): void {
-  const measure = () => {
-    const { clientWidth: width, clientHeight: height } = canvas;
-    const covered = panel.getBoundingClientRect();
-    const isSheet = covered.width > 0.9 * width;
-    // On a small screen the switches are below the view bar, else in a corner.
-    const bar = (isSheet ? display.firstElementChild! : views).getBoundingClientRect().bottom;
-    const left = isSheet ? 0 : covered.right;
-    const bottom = isSheet ? covered.top : height;
-    selection.style.setProperty('--left', `${left}px`);
-    selection.style.setProperty('--bottom', `${height - bottom}px`);
-    viewer?.setFreeArea({ left, top: bar, width: Math.max(80, width - left), height: Math.max(80, bottom - bar) });
-  };
-  const observer = new ResizeObserver(measure);
+  const observer = new ResizeObserver(measureFreeArea);
   observer.observe(panel);
   observer.observe(canvas);
   observer.observe(display);
@@ -119,7 +121,10 @@ function goTo(target: Target): void {
   }
   store.update({ chosen: target });
   // Once it is drawn: the listeners are called in a microtask that is queued already.
-  queueMicrotask(() => viewer?.zoomTo(target));
+  queueMicrotask(() => {
+    measureFreeArea();
+    viewer?.zoomTo(target);
+  });
 }
 
 trackFreeArea();

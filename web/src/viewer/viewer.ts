@@ -144,12 +144,13 @@ export class Viewer {
     }
     const { sphere, normal } = placeOf(outline);
     const before = this.camera.position.clone().sub(this.controls.target).normalize();
-    // From its front, and a little from where the camera is: never exactly along the axis that it turns about.
-    const aside = before.addScaledVector(normal, -before.dot(normal));
-    const direction = normal.addScaledVector(aside, 0.4).normalize();
     const around = target.kind === 'element' ? 7 : 1.6;
     const room = Math.min(this.free.width, this.free.height) / (2 * around * Math.max(sphere.radius, 1e-4));
-    const distance = (this.canvas.clientHeight || 1) / (2 * tangent * room);
+    const wanted = (this.canvas.clientHeight || 1) / (2 * tangent * room);
+    const { direction, distance } =
+      target.kind === 'element'
+        ? this.inspector.lookout(sphere, normal, before, wanted)
+        : { direction: normal.addScaledVector(before, 0.6).normalize(), distance: wanted };
     this.controls.target.copy(sphere.center);
     this.camera.position.copy(sphere.center).addScaledVector(direction, distance);
     this.controls.update();
