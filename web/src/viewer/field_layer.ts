@@ -4,7 +4,7 @@ import type { LineMaterial } from 'three/addons/lines/LineMaterial.js';
 import { LineSegments2 } from 'three/addons/lines/LineSegments2.js';
 import type { Frame } from './frame.js';
 import { Layer } from './layer.js';
-import { lineSegments } from './lines.js';
+import { drawNearer, lineSegments } from './lines.js';
 import { markerPoints, type Marker } from './markers.js';
 import type { Palette } from './palette.js';
 
@@ -18,9 +18,6 @@ const relativeWidth = 0.075;
 const widthLimits = [0.45, 1.7] as const;
 /** Pinned crosses are that much bolder. */
 const pinnedFactor = 1.5;
-
-/** Lines are drawn that much nearer than they are, in depth from -1 to 1: where chords pass below the part. */
-const nearer = 0.0015;
 
 /** How the field is shown. */
 export interface FieldLook {
@@ -105,7 +102,7 @@ export class FieldLayer extends Layer {
     lines.renderOrder = 2;
     this.add(lines);
     if (lines instanceof LineSegments2) {
-      drawNearer(lines.material);
+      drawNearer(lines);
       this.lines.push({ material: lines.material, factor });
     }
   }
@@ -129,16 +126,6 @@ function crossGroups({ streamlines, constraints }: FieldLook, palette: Palette):
     ...[1, 2, 3, 4, 5].map((kind) => ({ wanted: pinned(kind), color: palette.pins[kind]!, factor: 2, opacity: 1 })),
     { wanted: taken, color: palette.removedPin, factor: 2.4, opacity: 1 },
   ];
-}
-
-/** Wide lines are triangles, whose depth can be shifted. */
-function drawNearer(material: LineMaterial): void {
-  material.onBeforeCompile = (shader) => {
-    shader.vertexShader = shader.vertexShader.replace(
-      'gl_Position = clip;',
-      `clip.z -= ${nearer.toFixed(5)} * clip.w;\n\t\t\tgl_Position = clip;`,
-    );
-  };
 }
 
 /** The segments of all streamlines, x, y, z of both ends each. */

@@ -2,7 +2,7 @@ import type { InspectResult, MeshResult } from 'qmcf';
 import { Box3, BufferAttribute, BufferGeometry, DoubleSide, Mesh, MeshBasicMaterial, Sphere, Vector3 } from 'three';
 import type { Target } from '../state.js';
 import { Layer } from './layer.js';
-import { gather, lineSegments } from './lines.js';
+import { drawNearer, gather, lineSegments } from './lines.js';
 import type { Palette } from './palette.js';
 
 /** What can be marked: the part, and the mesh where that is what is seen. Positions are those in the scene. */
@@ -43,6 +43,7 @@ export class HighlightLayer extends Layer {
       // A dark border makes the bright line stand out from every colour below it.
       for (const [color, width, order] of [[palette.sharp, 8, 4], [palette.highlight, 4.5, 5]] as const) {
         const lines = lineSegments(outline.segments, color, width);
+        drawNearer(lines);
         lines.renderOrder = order;
         this.add(lines);
       }
