@@ -1,36 +1,39 @@
 import { defineConfig } from '@playwright/test';
 
-// Debian's Chromium, drawing in software, without the calls home that a closed network would refuse.
-const chromium = {
-  executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium',
-  args: [
-    '--no-sandbox',
-    '--use-angle=swiftshader',
-    '--enable-unsafe-swiftshader',
-    '--disable-background-networking',
-    '--disable-component-update',
-    '--disable-sync',
-    '--disable-quic',
-    '--no-first-run',
-  ],
-};
+const serve = (port: number) => `npx --no-install vite preview web --port ${port} --strictPort --logLevel warn`;
+
+/** The same page with and without the headers that let memory be shared: a run is cancelled in two different ways. */
+export const isolatedPage = 'http://localhost:4273/';
+export const plainPage = 'http://localhost:4274/';
 
 export default defineConfig({
   testDir: 'tests/e2e',
   outputDir: 'build/e2e',
-  timeout: 120_000,
+  timeout: 180_000,
   expect: { timeout: 60_000 },
   workers: 1,
   reporter: [['list']],
   use: {
-    baseURL: 'http://localhost:4317',
-    launchOptions: chromium,
+    baseURL: isolatedPage,
     viewport: { width: 1440, height: 900 },
     acceptDownloads: true,
+    // Debian's Chromium, drawing in software, without the calls home that a closed network would refuse.
+    launchOptions: {
+      executablePath: process.env['CHROMIUM'] ?? '/usr/bin/chromium',
+      args: [
+        '--no-sandbox',
+        '--use-angle=swiftshader',
+        '--enable-unsafe-swiftshader',
+        '--disable-background-networking',
+        '--disable-component-update',
+        '--disable-sync',
+        '--disable-quic',
+        '--no-first-run',
+      ],
+    },
   },
-  webServer: {
-    command: 'npm run preview -w web -- --port 4317 --strictPort',
-    url: 'http://localhost:4317',
-    reuseExistingServer: false,
-  },
+  webServer: [
+    { command: serve(4273), url: isolatedPage },
+    { command: serve(4274), url: plainPage, env: { QMCF_NO_ISOLATION: '1' } },
+  ],
 });

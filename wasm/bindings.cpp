@@ -20,6 +20,7 @@
 #include "qmcf/base/math.hpp"
 #include "qmcf/base/progress.hpp"
 #include "qmcf/base/result.hpp"
+#include "qmcf/field/even_streamlines.hpp"
 #include "qmcf/io/read.hpp"
 #include "qmcf/io/write.hpp"
 #include "qmcf/pipeline/mesh_surface.hpp"
@@ -140,12 +141,14 @@ std::optional<Error> assign(Mode& option, std::string_view name, const val& give
 /// Calls visit(name, field) for every option. The structured binding fails to compile when MeshOptions gains a field.
 template <class Visit>
 void forEachOption(MeshOptions& options, Visit visit) {
-  auto& [size, quads, featureAngle, mode, gradation, alignBoundary, alignSharp, alignNonManifold, alignCurvature] =
+  auto& [size,       quads,         featureAngle, mode,             repair,
+         gradation,  alignBoundary, alignSharp,   alignNonManifold, alignCurvature] =
       options;
   visit("size", size);
   visit("quads", quads);
   visit("featureAngle", featureAngle);
   visit("mode", mode);
+  visit("repair", repair);
   visit("gradation", gradation);
   visit("alignBoundary", alignBoundary);
   visit("alignSharp", alignSharp);
@@ -257,7 +260,24 @@ struct FlatField {
   std::vector<Vec3> singularNormals;
   std::vector<std::int32_t> singularIndices;
   std::vector<std::int32_t> singularFaces;
+  std::vector<Vec3> linePoints;
+  std::vector<std::int32_t> lineOffsets{0};
 };
+
+/// The distance of streamlines in a picture: an element, or so much that about this many fit across all faces.
+double streamlineSpacing(const FieldResult& result) {
+  constexpr double kLinesSquared = 5000.0;
+  double area = 0.0;
+  for (const BrepFace& face : result.input.brep.faces) area += face.area;
+  return std::fmax(result.size, std::sqrt(area / kLinesSquared));
+}
+
+void appendLines(FlatField& flat, const Patch& patch, const CrossField& field, double spacing) {
+  for (const std::vector<Vec3>& line : evenStreamlines(patch, field, spacing)) {
+    flat.linePoints.insert(flat.linePoints.end(), line.begin(), line.end());
+    flat.lineOffsets.push_back(static_cast<std::int32_t>(flat.linePoints.size()));
+  }
+}
 
 void append(FlatField& flat, const Patch& patch, const CrossField& field) {
   for (const VertexId v : patch.surface.vertices()) {
@@ -281,8 +301,10 @@ void append(FlatField& flat, const Patch& patch, const CrossField& field) {
 
 val fieldValue(const FieldResult& result) {
   FlatField flat;
+  const double spacing = streamlineSpacing(result);
   for (std::size_t i = 0; i < result.patches.size(); ++i) {
     append(flat, result.patches[i], result.fields[i]);
+    appendLines(flat, result.patches[i], result.fields[i], spacing);
   }
   val crosses = val::object();
   crosses.set("positions", copyOut(flat.points));
@@ -297,10 +319,14 @@ val fieldValue(const FieldResult& result) {
   singularities.set("normals", copyOut(flat.singularNormals));
   singularities.set("indices", copyOut(flat.singularIndices));
   singularities.set("faces", copyOut(flat.singularFaces));
+  val streamlines = val::object();
+  streamlines.set("positions", copyOut(flat.linePoints));
+  streamlines.set("offsets", copyOut(flat.lineOffsets));
   val out = val::object();
   out.set("size", result.size);
   out.set("crosses", crosses);
   out.set("singularities", singularities);
+  out.set("streamlines", streamlines);
   return out;
 }
 
@@ -349,7 +375,7 @@ val run(const val& input, const val& options, Stage stage, ToValue toValue) {
 
 val inspectModel(const val& input, const val& options) {
   const auto inspect = [](const TriangleMesh& mesh, const MeshOptions& o, Progress& progress) {
-    return inspectSurface(mesh, o.featureAngle, progress);
+    return inspectSurface(mesh, o, progress);
   };
   return run(input, options, inspect, partValue);
 }

@@ -242,3 +242,47 @@ test('Ctrl-C cancels: exit 4, one sentence, no output', async () => {
   assert.match(stderr, /cancelled/);
   assert.deepEqual(readdirSync(folder).filter((file) => file.startsWith('cancelled')), []);
 });
+
+test('info tells the state of the model as it was read, and what was repaired where', () => {
+  // One quadrilateral of the cube is turned round, a triangle beside it is there twice, a vertex is unused.
+  const lines = cube(2).trimEnd().split('\n');
+  const turned = lines.findIndex((line) => line.startsWith('f '));
+  lines[turned] = `f ${lines[turned].slice(2).split(' ').reverse().join(' ')}`;
+  put('dirty.obj', [...lines, 'v 9 9 9', 'v 3 3 3', 'v 4 3 3', 'v 3 4 3', 'f -3 -2 -1', 'f -3 -2 -1', ''].join('\n'));
+  const state = (...options) => JSON.parse(qmcf('info', 'dirty.obj', '--json', ...options).stdout);
+  const repaired = state();
+  assert.equal(repaired.statistics.triangles, 50);
+  assert.equal(repaired.statistics.components, 2);
+  assert.equal(repaired.statistics.duplicateTriangles, 1);
+  assert.equal(repaired.statistics.unusedVertices, 1);
+  assert.ok(repaired.statistics.misorientedEdges >= 2);
+  const item = (info, defect) => info.repair.find((entry) => entry.defect === defect);
+  assert.equal(item(repaired, 'duplicateTriangles').action, 'removed');
+  assert.equal(item(repaired, 'misorientedTriangles').action, 'turned round');
+  assert.equal(item(repaired, 'misorientedTriangles').count, item(repaired, 'misorientedTriangles').elements.length);
+
+  const left = state('--no-repair');
+  assert.deepEqual(left.statistics, repaired.statistics);
+  assert.equal(left.counts.triangles, 50);
+  assert.equal(item(left, 'duplicateTriangles').action, 'found');
+  assert.equal(item(left, 'misorientedTriangles').action, 'found');
+  const turnedRound = item(repaired, 'misorientedTriangles').elements;
+  assert.deepEqual(turnedRound, [0, 1]);
+  // The triangle that is there twice contradicts itself as long as both are there.
+  assert.ok(turnedRound.every((id) => item(left, 'misorientedTriangles').elements.includes(id)));
+  assert.match(qmcf('info', 'dirty.obj', '--no-repair').stdout, /^Defect +misoriented triangles: \d+ found$/m);
+});
+
+test('mesh --no-repair meshes the model as it is', () => {
+  const gap = 1e-7; // Repair closes it, so that one sheet of six edges at most is left of two.
+  const square = (x) => [`v ${x} 0 0`, `v ${x + 1} 0 0`, `v ${x + 1} 1 0`, `v ${x} 1 0`];
+  put('gap.obj', [...square(0), ...square(1 + gap), 'f 1 2 3 4', 'f 5 6 7 8', ''].join('\n'));
+  const components = (...options) => {
+    assert.equal(qmcf('mesh', 'gap.obj', '-o', 'gap_out.obj', '--quads', '50', '--report', 'gap.json', ...options).status, 0);
+    const report = JSON.parse(get('gap.json'));
+    assert.equal(report.quality.valid, true);
+    return report.quality.components;
+  };
+  assert.equal(components(), 1);
+  assert.equal(components('--no-repair'), 2);
+});

@@ -74,6 +74,23 @@ test('the field of a torus has no net index, and its directions are tangent unit
   }
 });
 
+test('streamlines of the field lie on the torus, and there is a pin or none for every cross', async () => {
+  const { crosses, streamlines } = await mesher.field(sample('torus.obj'), { quads: 1000 });
+  const { positions, offsets } = streamlines;
+  assert.ok(offsets.length > 20);
+  assert.equal(offsets.at(-1), positions.length / 3);
+  assert.ok(offsets.every((offset, line) => line === 0 || offset >= offsets[line - 1] + 2));
+  // The radii follow from the crosses; between their points the background's chords lie below the surface.
+  const rings = (p) => Array.from({ length: p.length / 3 }, (_, i) => [Math.hypot(p[3 * i], p[3 * i + 1]), p[3 * i + 2]]);
+  const around = rings(crosses.positions).map(([r]) => r);
+  const [inner, outer] = [around.reduce((a, b) => Math.min(a, b)), around.reduce((a, b) => Math.max(a, b))];
+  const [major, minor] = [(inner + outer) / 2, (outer - inner) / 2];
+  for (const [r, z] of rings(positions)) {
+    assert.ok(Math.abs(Math.hypot(r - major, z) / minor - 1) < 0.1);
+  }
+  assert.equal(crosses.removed.length, crosses.constrained.length);
+});
+
 test('the field of a capsule has eight quarter turns, four times its Euler characteristic', async () => {
   const { singularities } = await mesher.field(sample('capsule.obj'), { quads: 1000 });
   assert.equal(singularities.indices.reduce((sum, index) => sum + index, 0), 8);

@@ -87,7 +87,7 @@ export class Mesher {
    * Reads and repairs a model and recovers its faces, edges and vertices.
    *
    * @param input - A file's content or buffers; copied unless `control.transferInput`.
-   * @param options - Only `featureAngle` matters here.
+   * @param options - Only `featureAngle` and `repair` matter here.
    * @param control - Progress and cancel.
    */
   inspect(input: ModelInput, options: MeshOptions = {}, control: RunControl = {}): Promise<InspectResult> {

@@ -22,6 +22,8 @@ export interface MeshOptions {
   quads?: number | undefined;
   /** Dihedral angle in degrees, between 0 and 180, from which an edge is sharp. Default 30. */
   featureAngle?: number | undefined;
+  /** False: defects of the input are reported and left as they are. Default true. */
+  repair?: boolean | undefined;
   /** Default `qmcf`. */
   mode?: Mode | undefined;
   /** Largest slope of the size field, above 0 and at most 1. Default 0.2. */
@@ -42,6 +44,7 @@ export const meshOptionNames = [
   'quads',
   'featureAngle',
   'mode',
+  'repair',
   'gradation',
   'alignBoundary',
   'alignSharp',
@@ -189,12 +192,21 @@ export interface Singularities {
   readonly faces: Int32Array;
 }
 
+/** Lines along the crosses at even distances, an element or more, for pictures. */
+export interface Streamlines {
+  /** x, y, z of the points of all lines, one line after the other. */
+  readonly positions: Float64Array;
+  /** Line `l` has the points `offsets[l]` up to, not including, `offsets[l + 1]`. */
+  readonly offsets: Int32Array;
+}
+
 /** The cross field of every face. */
 export interface FieldResult {
   /** The element size that the field was made for. */
   readonly size: number;
   readonly crosses: Crosses;
   readonly singularities: Singularities;
+  readonly streamlines: Streamlines;
 }
 
 /** Mean, worst and quantiles of one metric over the elements; null where there is no finite value. */

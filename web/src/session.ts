@@ -2,7 +2,7 @@ import { createMesher, QmcfError, type Mesher, type OutputFormat, type ProgressR
 import * as format from './format.js';
 import type { Sample } from './samples.js';
 import { stageLabel, TaskProgress } from './stages.js';
-import { linkSizes, optionsKey, optionsOf, type Running, type Settings, type State, type Store, type View } from './state.js';
+import { fieldSettings, linkSizes, optionsKey, optionsOf, type Running, type Settings, type State, type Store, type View } from './state.js';
 
 /** Everything that is done with the core: opens parts, computes fields and meshes, one at a time. */
 export class Session {
@@ -54,6 +54,8 @@ export class Session {
       this.store.update({
         mesh: { result, optionsKey: optionsKey(settings), seconds },
         view: 'mesh',
+        hover: undefined,
+        chosen: undefined,
         status: `${parts.join(' and ')} in ${format.duration(seconds)}.`,
       });
     });
@@ -89,6 +91,8 @@ export class Session {
         settings: sized,
         field: undefined,
         mesh: undefined,
+        hover: undefined,
+        chosen: undefined,
         view: 'part',
         display: { ...this.store.state.display, crosses: false },
         galleryOpen: false,
@@ -100,7 +104,15 @@ export class Session {
   /** Shows the part, its field or its mesh. */
   setView(view: View): void {
     const { display } = this.store.state;
-    this.store.update({ view, display: { ...display, crosses: view === 'field' } });
+    // Elements are seen in the mesh only; faces and edges everywhere.
+    const { chosen } = this.store.state;
+    const stays = chosen?.kind !== 'element' || view === 'mesh';
+    this.store.update({
+      view,
+      display: { ...display, crosses: view === 'field' },
+      hover: undefined,
+      chosen: stays ? chosen : undefined,
+    });
   }
 
   /** Lays the crosses over what is seen. */
@@ -126,17 +138,22 @@ export class Session {
       await this.run('open', 'The edges could not be found', async (mesher, control) => {
         const { featureAngle } = settings;
         const part = await mesher.inspect(model.bytes, { featureAngle }, control);
-        this.store.update({ model: { ...model, part, featureAngle }, status: 'Edges found again.' });
+        this.store.update({
+          model: { ...model, part, featureAngle },
+          hover: undefined,
+          chosen: undefined,
+          status: 'Edges found again.',
+        });
       });
       return;
     }
     await this.run('field', 'The cross field could not be computed', async (mesher, control) => {
       const start = performance.now();
-      const result = await mesher.field(model.bytes, optionsOf(settings), control);
+      const result = await mesher.field(model.bytes, optionsOf(fieldSettings(settings)), control);
       const seconds = (performance.now() - start) / 1000;
       const singular = format.counted(result.singularities.indices.length, 'singularity', 'singularities');
       this.store.update({
-        field: { result, optionsKey: optionsKey(settings), seconds },
+        field: { result, optionsKey: optionsKey(fieldSettings(settings)), seconds },
         status: `Cross field with ${singular} in ${format.duration(seconds)}.`,
       });
     });
@@ -209,7 +226,7 @@ function needsUpkeep({ model, settings, field, display, running }: State): boole
     return false;
   }
   const featuresOld = model.featureAngle !== settings.featureAngle;
-  const fieldOld = display.crosses && field?.optionsKey !== optionsKey(settings);
+  const fieldOld = display.crosses && field?.optionsKey !== optionsKey(fieldSettings(settings));
   return featuresOld || fieldOld;
 }
 

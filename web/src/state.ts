@@ -1,4 +1,4 @@
-import type { FieldResult, InspectResult, MeshOptions, MeshResult } from 'qmcf';
+import type { FieldResult, InspectResult, MeshOptions, MeshResult, Mode } from 'qmcf';
 
 /** What the viewport shows. */
 export type View = 'part' | 'field' | 'mesh';
@@ -21,15 +21,33 @@ export interface Settings {
   readonly size: number;
   readonly quads: number;
   readonly featureAngle: number;
+  readonly mode: Mode;
   readonly alignBoundary: boolean;
   readonly alignSharp: boolean;
   readonly alignNonManifold: boolean;
   readonly alignCurvature: boolean;
 }
 
+/** A face or edge of the part, or an element of the mesh. */
+export interface Target {
+  readonly kind: 'face' | 'edge' | 'element';
+  readonly id: number;
+}
+
+/** What the pointer is on, and where that is in the window, in CSS pixels. */
+export interface Hover {
+  readonly target: Target;
+  readonly x: number;
+  readonly y: number;
+}
+
 /** What is drawn besides the view itself. */
 export interface Display {
   readonly crosses: boolean;
+  /** Lines along the field instead of crosses. */
+  readonly streamlines: boolean;
+  /** What pins the field, by kind, and the pins that were taken back. */
+  readonly constraints: boolean;
   readonly faceColors: boolean;
   readonly irregular: boolean;
   readonly quality: boolean;
@@ -65,6 +83,9 @@ export interface State {
   readonly display: Display;
   readonly field: Made<FieldResult> | undefined;
   readonly mesh: Made<MeshResult> | undefined;
+  readonly hover: Hover | undefined;
+  /** What was clicked on or looked up. */
+  readonly chosen: Target | undefined;
   readonly running: Running | undefined;
   readonly message: Message | undefined;
   /** One line on what happened last. */
@@ -79,15 +100,18 @@ export const initialState: State = {
     size: 0,
     quads: 3000,
     featureAngle: 30,
+    mode: 'qmcf',
     alignBoundary: true,
     alignSharp: true,
     alignNonManifold: true,
     alignCurvature: true,
   },
   view: 'part',
-  display: { crosses: false, faceColors: true, irregular: false, quality: false },
+  display: { crosses: false, streamlines: false, constraints: false, faceColors: true, irregular: false, quality: false },
   field: undefined,
   mesh: undefined,
+  hover: undefined,
+  chosen: undefined,
   running: undefined,
   message: undefined,
   status: 'Open a part to begin.',
@@ -98,6 +122,11 @@ export const initialState: State = {
 export function optionsOf(settings: Settings): MeshOptions {
   const { sizedBy, size, quads, ...rest } = settings;
   return sizedBy === 'size' ? { ...rest, size } : { ...rest, quads };
+}
+
+/** The same for the field, which is there in one mode only. */
+export function fieldSettings(settings: Settings): Settings {
+  return { ...settings, mode: 'qmcf' };
 }
 
 /** Equal for settings that give equal results. */

@@ -39,7 +39,7 @@ int run(const CheckCommand& command);
 /// qmcf info IN
 struct InfoCommand {
   std::string input;
-  double featureAngle = 30.0;
+  MeshOptions options;
   bool json = false;
 };
 int run(const InfoCommand& command);

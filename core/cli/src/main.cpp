@@ -20,12 +20,18 @@ void addAlignFlag(CLI::App& app, const std::string& name, bool& option, const st
       "--no-align-" + name, [&option] { option = false; }, "Don't align the field with " + what);
 }
 
+void addPartOptions(CLI::App& app, MeshOptions& options) {
+  app.add_option("--feature-angle", options.featureAngle, "Dihedral angle in degrees from which an edge is sharp")
+      ->capture_default_str();
+  app.add_flag_callback(
+      "--no-repair", [&options] { options.repair = false; }, "Report the model's defects and leave them as they are");
+}
+
 void addFieldOptions(CLI::App& app, MeshOptions& options) {
   auto* const size = app.add_option("--size", options.size, "Edge length of the elements, in units of the model");
   app.add_option("--quads", options.quads, "Number of elements to aim at (3000 unless --size is given)")
       ->excludes(size);
-  app.add_option("--feature-angle", options.featureAngle, "Dihedral angle in degrees from which an edge is sharp")
-      ->capture_default_str();
+  addPartOptions(app, options);
   app.add_option("--gradation", options.gradation, "Largest slope of the element size, up to 1")->capture_default_str();
   addAlignFlag(app, "boundary", options.alignBoundary, "boundary edges");
   addAlignFlag(app, "sharp", options.alignSharp, "sharp edges");
@@ -68,8 +74,7 @@ void addCheck(CLI::App& app, CheckCommand& command) {
 
 void addInfo(CLI::App& app, InfoCommand& command) {
   app.add_option("input", command.input, "Model: OBJ, STL or PLY")->type_name("IN")->required();
-  app.add_option("--feature-angle", command.featureAngle, "Dihedral angle in degrees from which an edge is sharp")
-      ->capture_default_str();
+  addPartOptions(app, command.options);
   app.add_flag("--json", command.json, "Print JSON");
 }
 

@@ -116,10 +116,30 @@ std::string modelText(const std::string& path, const ReadModel& model) {
   return result;
 }
 
+std::string statisticsText(const MeshStatistics& statistics) {
+  const std::pair<std::int64_t, std::array<const char*, 2>> kCounts[] = {
+      {statistics.components, {"component", "components"}},
+      {statistics.boundaryLoops, {"boundary loop", "boundary loops"}},
+      {statistics.nonManifoldEdges, {"non-manifold edge", "non-manifold edges"}},
+      {statistics.nonManifoldVertices, {"non-manifold vertex", "non-manifold vertices"}},
+      {statistics.misorientedEdges, {"misoriented edge", "misoriented edges"}},
+      {statistics.degenerateTriangles, {"degenerate triangle", "degenerate triangles"}},
+      {statistics.sliverTriangles, {"sliver", "slivers"}},
+      {statistics.duplicateVertices, {"duplicate vertex", "duplicate vertices"}},
+      {statistics.duplicateTriangles, {"duplicate triangle", "duplicate triangles"}},
+      {statistics.unusedVertices, {"unused vertex", "unused vertices"}}};
+  std::vector<std::string> parts;
+  for (const auto& [count, words] : kCounts) {
+    if (count > 0) parts.push_back(counted(count, words[0], words[1]));
+  }
+  return line("As read", join(parts) + ", " + shortNumber(statistics.diagonal) + " across");
+}
+
 std::string partText(const InspectResult& result) {
   std::string text;
   for (const RepairItem& item : result.repaired.items) {
-    text += line("Repair", words(item.defect) + ": " + std::to_string(item.count) + " " + item.action);
+    text += line(item.action == "found" ? "Defect" : "Repair",
+                 words(item.defect) + ": " + std::to_string(item.count) + " " + item.action);
   }
   const Brep& brep = result.brep;
   std::int64_t loops = 0;

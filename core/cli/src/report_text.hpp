@@ -5,6 +5,7 @@
 
 #include "qmcf/io/read.hpp"
 #include "qmcf/pipeline/mesh_surface.hpp"
+#include "qmcf/topology/statistics.hpp"
 
 namespace qmcf::cli {
 
@@ -12,6 +13,8 @@ namespace qmcf::cli {
 
 /// What the file holds.
 std::string modelText(const std::string& path, const ReadModel& model);
+/// The state of the model before repair.
+std::string statisticsText(const MeshStatistics& statistics);
 /// What was repaired, one line for each item, and the recovered part.
 std::string partText(const InspectResult& result);
 /// Each face, edge and vertex of the recovered part.

@@ -87,15 +87,13 @@ std::optional<Error> validateOptions(const MeshOptions& options) {
   return std::nullopt;
 }
 
-Result<InspectResult> inspectSurface(const TriangleMesh& input, double featureAngle, Progress& progress) {
-  MeshOptions options;
-  options.featureAngle = featureAngle;
+Result<InspectResult> inspectSurface(const TriangleMesh& input, const MeshOptions& options, Progress& progress) {
   if (const auto error = validateOptions(options)) return *error;
   InspectResult result;
-  auto repaired = repair(input, RepairOptions{}, progress);
+  auto repaired = repair(input, RepairOptions{options.repair}, progress);
   if (!repaired) return repaired.error();
   result.repaired = std::move(repaired).value();
-  auto brep = recoverBrep(result.repaired.mesh, BrepOptions{featureAngle}, progress);
+  auto brep = recoverBrep(result.repaired.mesh, BrepOptions{options.featureAngle}, progress);
   if (!brep) return brep.error();
   result.brep = std::move(brep).value();
   return result;
@@ -103,7 +101,7 @@ Result<InspectResult> inspectSurface(const TriangleMesh& input, double featureAn
 
 Result<FieldResult> computeField(const TriangleMesh& input, const MeshOptions& options, Progress& progress) {
   if (const auto error = validateOptions(options)) return *error;
-  auto inspected = inspectSurface(input, options.featureAngle, progress);
+  auto inspected = inspectSurface(input, options, progress);
   if (!inspected) return inspected.error();
   FieldResult result;
   result.input = std::move(inspected).value();
@@ -117,7 +115,7 @@ Result<FieldResult> computeField(const TriangleMesh& input, const MeshOptions& o
 
 Result<MeshResult> meshSurface(const TriangleMesh& input, const MeshOptions& options, Progress& progress) {
   if (const auto error = validateOptions(options)) return *error;
-  auto inspected = inspectSurface(input, options.featureAngle, progress);
+  auto inspected = inspectSurface(input, options, progress);
   if (!inspected) return inspected.error();
   MeshResult result;
   result.input = std::move(inspected).value();

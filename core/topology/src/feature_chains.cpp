@@ -229,6 +229,17 @@ class Chains {
   std::vector<int> valence_;
 };
 
+/// A single edge in the middle of a sheet can't be cut open. Pruning leaves one where another sheet touches its end.
+void dropLoneEdges(const TriangleEdges& edges, FeatureEdges& features) {
+  const Fans fans = buildFans(edges, features.mark);
+  for (const EdgeId e : edges.edges()) {
+    if (!features.is(e, EdgeKind::sharp) && !features.is(e, EdgeKind::label)) continue;
+    const HalfedgeId h = edges.uses(e)[0];
+    const HalfedgeId g = edges.uses(e)[1];
+    if (nextCut(fans, h) == g && nextCut(fans, g) == h) features.mark[e] = 0;
+  }
+}
+
 }  // namespace
 
 std::vector<std::uint8_t> cleanFeatureChains(const TriangleMesh& mesh, const TriangleEdges& edges, const Bodies& bodies,
@@ -252,6 +263,7 @@ std::vector<std::uint8_t> cleanFeatureChains(const TriangleMesh& mesh, const Tri
     joinSmallPatches(mesh, edges, bodies, limits, features);
     Chains(mesh, edges, features, bodies, limits).prune();
   }
+  dropLoneEdges(edges, features);
   return scattered;
 }
 

@@ -68,6 +68,18 @@ void removeRepeatedCorners(RepairState& state) {
   keepTriangles(state, keep);
 }
 
+void noteUnusedVertices(RepairState& state) {
+  std::vector<std::uint8_t> used(state.mesh.positions.size(), 0);
+  for (const auto& corners : state.mesh.triangles) {
+    for (const std::int32_t v : corners) used[static_cast<std::size_t>(v)] = 1;
+  }
+  RepairItem item{"unusedVertices", "dropped: no triangle has them", 0, {}};
+  for (std::size_t v = 0; v < used.size(); ++v) {
+    if (used[v] == 0) note(item, static_cast<std::int64_t>(v));
+  }
+  addItem(state, std::move(item));
+}
+
 void dropUnreferenced(RepairState& state) {
   TriangleMesh& mesh = state.mesh;
   std::vector<std::int32_t> renumbered(mesh.positions.size(), kNone);
@@ -163,6 +175,7 @@ void joinPieces(RepairState& state) {
 void runPass(RepairState& state, int pass) {
   switch (pass) {
     case 0:
+      noteUnusedVertices(state);
       return weldExact(state);
     case 1:
       return removeRepeatedCorners(state);
@@ -175,7 +188,8 @@ void runPass(RepairState& state, int pass) {
     case 5:
       return orient(state);
     case 6:
-      return splitLoneEdges(state);
+      splitLoneEdges(state);
+      return noteNonManifold(state);
     default:
       return dropUnreferenced(state);
   }

@@ -45,6 +45,10 @@ void removeSlivers(RepairState& state);
 void orient(RepairState& state);
 /// Splits single non-manifold edges in the middle of a sheet, which can't be cut open without a further vertex.
 void splitLoneEdges(RepairState& state);
+/// Counts edges with more than two triangles, and vertices whose triangles form several fans: they stay.
+void noteNonManifold(RepairState& state);
+/// Counts the vertices of the input that no triangle uses.
+void noteUnusedVertices(RepairState& state);
 /// Drops vertices that no triangle uses and renumbers the others in their order.
 void dropUnreferenced(RepairState& state);
 

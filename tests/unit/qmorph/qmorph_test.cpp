@@ -94,7 +94,7 @@ TEST(QMorph, MeshesPlanarDomainsWithQuads) {
     const MorphResult result = mesh(patch);
     expectValid(result.mesh, patch);
     EXPECT_EQ(result.statistics.triangles % 2, 0);
-    EXPECT_LE(result.statistics.triangles, result.statistics.quads / 25);
+    EXPECT_LE(result.statistics.triangles, result.statistics.quads / 10);
     EXPECT_GT(4 * result.statistics.quads, static_cast<std::int64_t>(patch.surface.triangleCount()));
   }
 }

@@ -299,6 +299,72 @@ TEST(Repair, TurnsShellsOutwardsOnlyInContradictoryFiles) {
   EXPECT_NEAR(volumeOf(run(hollow).mesh), 1.0 - 0.125, 1e-12);
 }
 
+const RepairItem* itemOf(const RepairedMesh& result, const std::string& defect) {
+  for (const RepairItem& item : result.items) {
+    if (item.defect == defect) return &item;
+  }
+  return nullptr;
+}
+
+TEST(Repair, SaysWhichElementsEachItemIsAbout) {
+  using Ids = std::vector<std::int64_t>;
+  // Four squares of two triangles side by side; each defect has a place of its own.
+  TriangleMesh mesh = shapes::grid(4, 1, [](double u, double v) { return Vec3{4.0 * u, v, 0.0}; });
+  const auto add = [&](const Vec3& p) {
+    mesh.positions.push_back(p);
+    return static_cast<std::int32_t>(mesh.positions.size() - 1);
+  };
+  const std::int32_t unused = add({9, 9, 9});
+  const std::int32_t twin = add(mesh.positions[0]);
+  mesh.triangles.push_back({twin, 1, add({0.5, -1.0, 0.0})});  // 8: on the vertex 0 by another number
+  mesh.triangles.push_back({3, 3, 4});                         // 9: no triangle
+  mesh.triangles.push_back(mesh.triangles[2]);                 // 10: twice
+  const std::int32_t third = add({2.5, 0.0, 1.0});
+  mesh.triangles.push_back({2, 3, third});                                    // 11
+  mesh.triangles.push_back({3, 2, add({2.5, -1.0, -1.0})});                   // 12: third triangle at edge 2 3
+  mesh.triangles.push_back({4, add({5.0, 0.0, 1.0}), add({5.0, 1.0, 1.0})});  // 13: touches in vertex 4
+  const RepairedMesh result = run(mesh);
+  const auto idsOf = [&](const char* defect) {
+    const RepairItem* const item = itemOf(result, defect);
+    return item == nullptr ? Ids{} : item->elements;
+  };
+  EXPECT_EQ(idsOf("unusedVertices"), Ids{unused});
+  EXPECT_EQ(idsOf("duplicateVertices"), Ids{twin});
+  EXPECT_EQ(idsOf("degenerateTriangles"), Ids{9});
+  EXPECT_EQ(idsOf("duplicateTriangles"), Ids{10});
+  EXPECT_EQ(countOf(result, "nonManifoldEdges"), 1);
+  EXPECT_EQ(idsOf("nonManifoldVertices"), Ids{4});
+  for (const RepairItem& item : result.items) EXPECT_FALSE(item.action.empty());
+}
+
+TEST(Repair, CrackIsZippedAndSaysWhere) {
+  // Two halves of a sheet, divided in 3 and in 4 along their common side: two inner vertices of the one lie on edges of
+  // the other and three the other way round.
+  const auto half = [](int cells, double left) {
+    return shapes::grid(2, cells, [=](double u, double v) { return Vec3{left + u, v, 0.0}; });
+  };
+  const TriangleMesh left = half(3, 0.0);
+  const TriangleMesh mesh = shapes::join(left, half(4, 1.0));
+  const RepairedMesh result = run(mesh);
+  const RepairItem* const zipped = itemOf(result, "tJunctions");
+  ASSERT_NE(zipped, nullptr);
+  EXPECT_EQ(zipped->count, 5);
+  for (const std::int64_t v : zipped->elements) {
+    EXPECT_EQ(mesh.positions[std::size_t(v)].x, 1.0);
+    EXPECT_NE(mesh.positions[std::size_t(v)].y * (1.0 - mesh.positions[std::size_t(v)].y), 0.0);
+  }
+  const Brep brep = shapes::checkedBrep(result.mesh);
+  EXPECT_EQ(brep.bodies.size(), 1U);
+  EXPECT_EQ(brep.faces.size(), 1U);
+  EXPECT_NEAR(areaOf(result.mesh), 2.0, 1e-12);
+
+  // Without leave to modify all is found and nothing zipped.
+  const RepairedMesh report = run(mesh, {false});
+  EXPECT_EQ(countOf(report, "tJunctions"), 5);
+  EXPECT_EQ(itemOf(report, "tJunctions")->action, "found");
+  EXPECT_EQ(shapes::checkedBrep(report.mesh).bodies.size(), 2U);
+}
+
 TEST(Repair, MoebiusStripIsReportedAndConsistentElsewhere) {
   const RepairedMesh result = run(shapes::moebius(30, 4));
   EXPECT_GT(countOf(result, "oneSidedEdges"), 0);
@@ -308,6 +374,8 @@ TEST(Repair, MoebiusStripIsReportedAndConsistentElsewhere) {
   }
   const auto conflicts = std::count_if(directed.begin(), directed.end(), [](const auto& e) { return e.second == 2; });
   EXPECT_EQ(conflicts, countOf(result, "oneSidedEdges"));
+  EXPECT_FALSE(itemOf(result, "oneSidedEdges")->elements.empty());
+  EXPECT_EQ(countOf(result, "nonManifoldVertices"), 0);
 }
 
 TEST(Repair, ReportsWithoutChangingWhenAsked) {

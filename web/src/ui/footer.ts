@@ -2,7 +2,7 @@ import { outputFormats, type OutputFormat } from 'qmcf';
 import { button, el, setText, show } from '../dom.js';
 import * as format from '../format.js';
 import type { Session } from '../session.js';
-import { optionsKey, type Running, type Store } from '../state.js';
+import { optionsKey, type Running, type State, type Store } from '../state.js';
 import { icons } from './icons.js';
 
 const formatNames: Record<OutputFormat, string> = {
@@ -21,7 +21,8 @@ export function footer(store: Store, session: Session): HTMLElement {
   const generate = button('Generate mesh', { class: 'button primary' }, () => void session.generate());
   const cancel = button('Cancel', { class: 'button' }, () => session.cancel());
   const { element: saving, saveButton } = downloadControls(session);
-  const progress = progressBar(store);
+  const isSeen = ({ galleryOpen }: State) => !galleryOpen;
+  const progress = progressBar(store, isSeen);
   const controls = el('div', { class: 'row actions' }, generate, cancel);
   store.subscribe((state) => {
     const { running, model, mesh } = state;
@@ -35,7 +36,7 @@ export function footer(store: Store, session: Session): HTMLElement {
     saveButton.classList.toggle('primary', isFresh);
     generate.classList.toggle('primary', !isFresh);
   });
-  return el('footer', { class: 'foot' }, messageBox(store), progress, status, controls, saving);
+  return el('footer', { class: 'foot' }, messageBox(store, isSeen), progress, status, controls, saving);
 }
 
 function downloadControls(session: Session): { element: HTMLElement; saveButton: HTMLButtonElement } {
@@ -51,7 +52,16 @@ function downloadControls(session: Session): { element: HTMLElement; saveButton:
   return { element: el('div', { class: 'row saving' }, type, saveButton), saveButton };
 }
 
-function progressBar(store: Store): HTMLElement {
+/** What happens while the gallery covers the footer: progress with a way to stop it, and messages. */
+export function notice(store: Store, session: Session): HTMLElement {
+  const isSeen = ({ galleryOpen }: State) => galleryOpen;
+  const cancel = button('Cancel', { class: 'button' }, () => session.cancel());
+  store.subscribe((state) => show(cancel, isSeen(state) && state.running !== undefined));
+  return el('div', { class: 'notice' }, messageBox(store, isSeen), progressBar(store, isSeen), cancel);
+}
+
+/** Seen while something runs and `isSeen` holds. */
+function progressBar(store: Store, isSeen: (state: State) => boolean): HTMLElement {
   const stage = el('span', { class: 'stage' });
   const time = el('span', { class: 'time' });
   const fill = el('div', { class: 'fill' });
@@ -59,7 +69,8 @@ function progressBar(store: Store): HTMLElement {
   const element = el('div', { class: 'progress', hidden: true }, el('div', { class: 'row' }, stage, time), bar);
   let clock: ReturnType<typeof setInterval> | undefined;
   const tick = ({ since }: Running) => setText(time, format.duration((performance.now() - since) / 1000));
-  store.subscribe(({ running }) => {
+  store.subscribe((state) => {
+    const running = isSeen(state) ? state.running : undefined;
     show(element, running !== undefined);
     if (!running) {
       clearInterval(clock);
@@ -80,14 +91,15 @@ function progressBar(store: Store): HTMLElement {
   return element;
 }
 
-function messageBox(store: Store): HTMLElement {
+function messageBox(store: Store, isSeen: (state: State) => boolean): HTMLElement {
   const title = el('strong', {});
   const text = el('p', {});
   const close = button(icons.close(), { class: 'quiet icon', 'aria-label': 'Close message' }, () => store.update({ message: undefined }));
   const content = el('div', { class: 'message' }, icons.warn(), el('div', {}, title, text), close);
   // The live region is always there, so that what is put into it is read out.
   const region = el('div', { role: 'alert' });
-  store.subscribe(({ message }, before) => {
+  store.subscribe((state, before) => {
+    const message = isSeen(state) ? state.message : undefined;
     if (!message) {
       region.replaceChildren();
     } else if (message !== before.message || !region.hasChildNodes()) {

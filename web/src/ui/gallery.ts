@@ -2,10 +2,11 @@ import { button, el, show } from '../dom.js';
 import { samples, type Sample } from '../samples.js';
 import type { Session } from '../session.js';
 import type { Store } from '../state.js';
+import { notice } from './footer.js';
 import { icons, mark } from './icons.js';
 
-/** The first thing that is seen: drop a part, open one with the panel's file picker, or take a sample. */
-export function gallery(store: Store, session: Session, pickFile: () => void): HTMLElement {
+/** The first thing that is seen: drop a part, open one with the page's file picker, or take a sample. */
+export function gallery(store: Store, session: Session, openControl: HTMLElement): HTMLElement {
   const close = button(icons.close(), { class: 'quiet icon close', 'aria-label': 'Close samples' }, () => store.update({ galleryOpen: false }));
   const welcome = el(
     'div',
@@ -18,13 +19,15 @@ export function gallery(store: Store, session: Session, pickFile: () => void): H
       'A quad mesh that follows the edges, the curvature and the element size you ask for. Everything is computed on this machine; nothing is uploaded.',
     ),
   );
+  const row = el('div', { class: 'row' });
   const list = el('ul', { class: 'samples' }, ...samples.map((sample) => el('li', {}, sampleCard(sample, session))));
   const element = el(
     'div',
     { class: 'gallery', role: 'region', 'aria-label': 'Samples' },
     close,
     welcome,
-    el('div', { class: 'row centre first-only' }, button('Choose a file', { class: 'button primary' }, pickFile)),
+    row,
+    notice(store, session),
     el('h2', { class: 'divider' }, 'or take one of ours'),
     list,
   );
@@ -35,6 +38,9 @@ export function gallery(store: Store, session: Session, pickFile: () => void): H
   });
   store.subscribe((state) => {
     show(element, state.galleryOpen);
+    if (state.galleryOpen && openControl.parentElement !== row) {
+      row.append(openControl);
+    }
     show(close, state.model !== undefined);
     element.classList.toggle('first', state.model === undefined);
   });

@@ -12,6 +12,7 @@ export const icons = {
       ),
     ),
   fit: () => svg(icon('<path d="M3.5 7V3.5H7M13 3.5h3.5V7M16.5 13v3.5H13M7 16.5H3.5V13"/><circle cx="10" cy="10" r="2"/>')),
+  zoom: () => svg(icon('<circle cx="8.5" cy="8.5" r="5"/><path d="m12.2 12.2 4.3 4.3M8.5 6.5v4M6.5 8.5h4"/>')),
   close: () => svg(icon('<path d="m5 5 10 10M15 5 5 15"/>')),
   download: () => svg(icon('<path d="M10 4v9M6.5 9.5 10 13l3.5-3.5M4 13.5V16h12v-2.5"/>')),
   check: () => svg(icon('<path d="m4.5 10.5 3.5 3.5 7.5-8"/>')),

@@ -1,39 +1,37 @@
 import type { RepairItem } from 'qmcf';
-import { button, el, setText, show } from '../dom.js';
+import { button, el, setText } from '../dom.js';
 import * as format from '../format.js';
 import type { Session } from '../session.js';
 import type { State, Store } from '../state.js';
 import { icons } from './icons.js';
+import { lookUp } from './look_up.js';
 
 /** Which part is open, what is known of it, and how to open another. */
-export function modelSection(store: Store, session: Session): HTMLElement {
+export function modelSection(store: Store, openControl: HTMLElement): HTMLElement {
   const name = el('h2', { class: 'model-name' });
   const facts = el('p', { class: 'facts' });
-  const repairs = el('ul', { class: 'notes' });
-  const repairBox = el('details', { class: 'repairs' }, el('summary', {}, 'What was repaired'), repairs);
+  const repairs = el('div', {});
   const gallery = button(icons.gallery(), { class: 'quiet icon-text' }, () => store.update({ galleryOpen: true }));
   gallery.append('Samples');
-  const section = el(
-    'section',
-    { class: 'model', 'aria-label': 'Model' },
-    name,
-    facts,
-    repairBox,
-    el('div', { class: 'row' }, openControl(session), gallery),
-  );
+  const row = el('div', { class: 'row' }, gallery);
+  const section = el('section', { class: 'model', 'aria-label': 'Model' }, name, facts, repairs, row, lookUp(store));
   store.subscribe((state, before) => {
+    if (!state.galleryOpen && openControl.parentElement !== row) {
+      row.prepend(openControl);
+    }
     if (state === before || state.model !== before.model) {
       setText(name, state.model?.name ?? 'No part yet');
       setText(facts, factsOf(state));
-      const items = state.model?.part.report.repair ?? [];
-      repairs.replaceChildren(...items.map(repairNote));
-      show(repairBox, items.length > 0);
+      repairs.replaceChildren(...(state.model ? repairReport(state.model.part.report.repair) : []));
     }
   });
   return section;
 }
 
-/** The file picker: the input itself is hidden from sight only. */
+/**
+ * The file picker; the input itself is hidden from sight only. There is one on the page, so that its name is unique: it
+ * is where it can be seen, in the gallery or in the panel.
+ */
 export function openControl(session: Session): HTMLElement {
   const input = el('input', { type: 'file', class: 'visually-hidden', accept: '.obj,.stl,.ply', 'aria-label': 'Open model' });
   input.addEventListener('change', () => {
@@ -59,7 +57,26 @@ function factsOf({ model }: State): string {
   ].join(' · ');
 }
 
-/** "12 duplicate vertices: merged" */
-export function repairNote(item: RepairItem): HTMLElement {
-  return el('li', {}, `${format.count(item.count)} ${format.words(item.defect)}: ${item.action}`);
+/** What was repaired, item by item with counts; nothing when all was well. */
+export function repairReport(items: readonly RepairItem[]): HTMLElement[] {
+  if (items.length === 0) {
+    return [];
+  }
+  const rows = items.map(({ count, defect, action, elements }) =>
+    el(
+      'tr',
+      {},
+      el('td', {}, format.count(count)),
+      el('th', { scope: 'row' }, format.words(defect), el('small', {}, action), ...idList(elements, count)),
+    ),
+  );
+  const summary = el('summary', {}, 'What was repaired', el('span', { class: 'count' }, format.counted(items.length, 'item')));
+  return [el('details', { class: 'repairs' }, summary, el('table', { class: 'repair-items' }, el('tbody', {}, ...rows)))];
+}
+
+/** The first ids in the file, to look for them there. */
+function idList(elements: readonly number[], count: number): HTMLElement[] {
+  const shown = elements.slice(0, 6);
+  const text = `ids ${shown.join(', ')}${shown.length < Math.max(count, elements.length) ? ' …' : ''}`;
+  return shown.length > 0 ? [el('small', { class: 'ids' }, text)] : [];
 }

@@ -1,4 +1,5 @@
-import { el } from '../dom.js';
+import type { Mode } from 'qmcf';
+import { el, uniqueId } from '../dom.js';
 import type { Session } from '../session.js';
 import type { Settings, Store } from '../state.js';
 import { numberField, toggle } from './fields.js';
@@ -12,7 +13,12 @@ const constraints: readonly (readonly [Constraint, string, string])[] = [
   ['alignCurvature', 'Curvature', 'Quads run along the directions of principal curvature where these are clear.'],
 ];
 
-/** Features, and what the field follows. */
+const modes: readonly (readonly [Mode, string])[] = [
+  ['qmcf', 'QMCF, along the cross field'],
+  ['qmorph', 'Q-Morph, to compare with'],
+];
+
+/** Features, the advancing front, and what the field follows. */
 export function optionsSection(store: Store, session: Session): HTMLElement {
   const angle = numberField({
     label: 'Feature angle',
@@ -25,8 +31,12 @@ export function optionsSection(store: Store, session: Session): HTMLElement {
   const toggles = constraints.map(
     ([name, label, hint]) => [name, toggle(label, (on) => session.changeSettings({ [name]: on }), hint)] as const,
   );
+  const id = uniqueId();
+  const mode = el('select', { id }, ...modes.map(([value, label]) => el('option', { value }, label)));
+  mode.addEventListener('change', () => session.changeSettings({ mode: mode.value as Mode }));
   store.subscribe(({ settings }) => {
     angle.set(String(settings.featureAngle));
+    mode.value = settings.mode;
     for (const [name, { input }] of toggles) {
       input.checked = settings[name];
     }
@@ -36,6 +46,7 @@ export function optionsSection(store: Store, session: Session): HTMLElement {
     { class: 'options' },
     el('summary', {}, 'Features and directions'),
     angle.element,
+    el('div', { class: 'field' }, el('label', { for: id }, 'Advancing front'), mode),
     el(
       'fieldset',
       {},

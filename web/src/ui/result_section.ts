@@ -1,13 +1,14 @@
-import type { FaceReport, MeshResult, QualityReport } from 'qmcf';
-import { el, show } from '../dom.js';
+import type { MeshResult, QualityReport } from 'qmcf';
+import { button, el, show } from '../dom.js';
 import * as format from '../format.js';
-import { optionsKey, type Made, type Store } from '../state.js';
+import { optionsKey, type Made, type Store, type Target } from '../state.js';
 import { qualityColor } from '../viewer/palette.js';
 import { icons } from './icons.js';
-import { repairNote } from './model_section.js';
+import { repairReport } from './model_section.js';
+import { faceTitle, methodNames } from './target_info.js';
 
 /** The figures of the mesh, and all that was not as it should be. */
-export function resultSection(store: Store): HTMLElement {
+export function resultSection(store: Store, zoomTo: (target: Target) => void): HTMLElement {
   const body = el('div', { class: 'result-body' });
   const old = el('p', { class: 'hint' }, 'The settings have changed since this mesh was made.');
   const section = el('section', { class: 'result', 'aria-label': 'Result' }, old, body);
@@ -16,21 +17,22 @@ export function resultSection(store: Store): HTMLElement {
     show(section, mesh !== undefined);
     show(old, mesh !== undefined && mesh.optionsKey !== optionsKey(state.settings));
     if (mesh && (state === before || mesh !== before.mesh)) {
-      body.replaceChildren(...report(mesh));
+      body.replaceChildren(...report(mesh, zoomTo));
     }
   });
   return section;
 }
 
-function report({ result, seconds }: Made<MeshResult>): HTMLElement[] {
-  const { quality, faces, repair } = result.report;
+function report({ result, seconds }: Made<MeshResult>, zoomTo: (target: Target) => void): HTMLElement[] {
+  const { quality, repair } = result.report;
   return [
     verdict(quality),
     headline(quality),
     histogram(result.elementScaledJacobian),
+    worstElement(result, zoomTo),
     figures(quality, result.size),
-    ...fallbacks(faces),
-    ...notes('What was repaired', repair.map(repairNote)),
+    methods(result, zoomTo),
+    ...repairReport(repair),
     el('p', { class: 'facts' }, `Made in ${format.duration(seconds)}, element size ${format.length(result.size)}.`),
   ];
 }
@@ -111,24 +113,33 @@ function figures(quality: QualityReport, size: number): HTMLElement {
   return el('table', { class: 'figures' }, el('thead', {}, head), el('tbody', {}, ...rows, ...others));
 }
 
-const methodNames: Record<FaceReport['method'], string> = {
-  qmcf: 'cross field',
-  qmorph: 'Q-Morph',
-  recombined: 'paired triangles',
-  triangles: 'triangles only',
-  omitted: 'left out',
-};
-
-/** The faces that another method than the first had to mesh. */
-function fallbacks(faces: readonly FaceReport[]): HTMLElement[] {
-  const fallen = faces.filter(({ reason }) => reason !== '');
-  const items = fallen.map(({ face, method, reason }) => el('li', {}, `Face ${face + 1}, ${methodNames[method]}: ${reason}`));
-  const title = `${format.count(fallen.length)} of ${format.counted(faces.length, 'face')} meshed by a fallback`;
-  return notes(title, items);
+/** Goes to the element with the least scaled Jacobian. */
+function worstElement({ elementScaledJacobian }: MeshResult, zoomTo: (target: Target) => void): HTMLElement {
+  let worst = 0;
+  elementScaledJacobian.forEach((value, element) => (worst = value < elementScaledJacobian[worst]! ? element : worst));
+  const label = el('span', {}, 'Worst element', el('b', {}, format.figure(elementScaledJacobian[worst])));
+  const go = button(icons.zoom(), { class: 'button icon-text worst' }, () => zoomTo({ kind: 'element', id: worst }));
+  go.append(label);
+  return go;
 }
 
-function notes(title: string, items: HTMLElement[]): HTMLElement[] {
-  return items.length === 0
-    ? []
-    : [el('details', {}, el('summary', {}, title), el('ul', { class: 'notes' }, ...items))];
+/** How the faces were meshed, and each one that another method than the first had to mesh. */
+function methods({ report, faceNames }: MeshResult, zoomTo: (target: Target) => void): HTMLElement {
+  const { faces } = report;
+  const fallen = faces.filter(({ reason }) => reason !== '');
+  if (fallen.length === 0) {
+    const how = faces[0]?.method === 'qmorph' ? 'by the original Q-Morph' : 'along the cross field';
+    const text = faces.length === 1 ? `The face was meshed ${how}.` : `All ${format.count(faces.length)} faces were meshed ${how}.`;
+    return el('p', { class: 'facts' }, text);
+  }
+  const items = fallen.map(({ face, method, reason }) =>
+    el(
+      'li',
+      {},
+      button(faceTitle(face, faceNames[face]), { class: 'link' }, () => zoomTo({ kind: 'face', id: face })),
+      `, ${methodNames[method]}: ${reason}`,
+    ),
+  );
+  const title = `${format.count(fallen.length)} of ${format.counted(faces.length, 'face')} meshed by a fallback`;
+  return el('details', { open: fallen.length <= 5 }, el('summary', {}, title), el('ul', { class: 'notes' }, ...items));
 }

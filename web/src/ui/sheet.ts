@@ -3,8 +3,11 @@ import { button } from '../dom.js';
 /** A pointer that moved further than this, in CSS pixels, dragged the handle; else it pressed it. */
 const dragDistance = 24;
 
-/** Makes the panel a sheet at the bottom of a small screen, that a drag or a press of its handle opens and closes. */
-export function makeSheet(panel: HTMLElement): void {
+/**
+ * Makes the panel a sheet at the bottom of a small screen, that a drag or a press of its handle opens and closes.
+ * Returns what closes it.
+ */
+export function makeSheet(panel: HTMLElement): () => void {
   let start = 0;
   let moved = 0;
   const setOpen = (open: boolean) => {
@@ -24,4 +27,5 @@ export function makeSheet(panel: HTMLElement): void {
   handle.addEventListener('pointerup', (event) => (moved = event.clientY - start));
   setOpen(false);
   panel.prepend(handle);
+  return () => setOpen(false);
 }

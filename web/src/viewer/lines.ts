@@ -6,6 +6,9 @@ import { LineSegmentsGeometry } from 'three/addons/lines/LineSegmentsGeometry.js
 /** Above this many segments lines are one pixel wide: wide ones cost a rectangle each. */
 const wideLimit = 120_000;
 
+/** Lines are drawn that much nearer than they are, in depth from -1 to 1: where chords pass below the part. */
+const nearer = 0.0015;
+
 /** Line segments, x, y, z of both ends each, `width` in CSS pixels. */
 export function lineSegments(ends: Float32Array, color: Color, width: number, opacity = 1): Object3D {
   const transparent = opacity < 1;
@@ -17,6 +20,18 @@ export function lineSegments(ends: Float32Array, color: Color, width: number, op
   geometry.setPositions(ends);
   const material = new LineMaterial({ color: color.getHex(), linewidth: width, transparent, opacity });
   return new LineSegments2(geometry, material);
+}
+
+/** Draws wide lines nearer than they are; being triangles their depth can be shifted. Thin ones stay. */
+export function drawNearer(lines: Object3D): void {
+  if (lines instanceof LineSegments2) {
+    lines.material.onBeforeCompile = (shader) => {
+      shader.vertexShader = shader.vertexShader.replace(
+        'gl_Position = clip;',
+        `clip.z -= ${nearer.toFixed(5)} * clip.w;\n\t\t\tgl_Position = clip;`,
+      );
+    };
+  }
 }
 
 /** The positions of the given vertices, one after the other. */

@@ -5,8 +5,12 @@ import { Layer } from './layer.js';
 import { lineSegments, gather } from './lines.js';
 import { markerPoints, type Marker } from './markers.js';
 import { cornerNormals } from './normals.js';
-import { faceColor, qualityColor, type Palette } from './palette.js';
+import { qualityColor, type Palette } from './palette.js';
 import { surfaceMaterial } from './part_layer.js';
+import { faceTints } from './tints.js';
+
+/** Share of the quality's own colour, unshaded, so that it can be compared with the legend. */
+const qualityFlatness = 0.65;
 
 /** How the mesh is shown. */
 export interface MeshLook {
@@ -18,7 +22,10 @@ export interface MeshLook {
 /** The quads with their edges, the triangles in a colour of their own, and the irregular vertices. */
 export class MeshLayer extends Layer {
   private paint: (() => void) | undefined;
+  private readonly flatness = { value: 0 };
+  private tints: Uint8Array = new Uint8Array();
   private irregular: Object3D | undefined;
+  private triangles: Object3D | undefined;
   private look: MeshLook = { faceColors: true, quality: false, irregular: false };
 
   show(mesh: MeshResult, frame: Frame, palette: Palette): void {
@@ -31,6 +38,9 @@ export class MeshLayer extends Layer {
       lines.renderOrder = 1;
       this.add(lines);
     }
+    this.triangles = triangleOutlines(mesh, positions, palette);
+    this.triangles.visible = this.look.quality;
+    this.add(this.triangles);
     this.irregular = markerPoints(irregularMarkers(mesh, positions), 12, palette);
     this.irregular.visible = this.look.irregular;
     this.add(this.irregular);
@@ -39,15 +49,18 @@ export class MeshLayer extends Layer {
   setLook(look: MeshLook): void {
     const repaint = look.faceColors !== this.look.faceColors || look.quality !== this.look.quality;
     this.look = look;
+    this.flatness.value = look.quality ? qualityFlatness : 0;
     if (repaint) {
       this.paint?.();
     }
-    if (this.irregular) {
+    if (this.irregular && this.triangles) {
       this.irregular.visible = look.irregular;
+      this.triangles.visible = look.quality;
     }
   }
 
   private surface(mesh: MeshResult, positions: Float32Array, palette: Palette): Mesh {
+    this.tints = faceTints(mesh.elements, 4, mesh.elementFace, mesh.faceNames.length);
     const corners = mesh.elements.map((vertex, i) => (vertex < 0 ? mesh.elements[i - 1]! : vertex));
     const geometry = new BufferGeometry();
     geometry.setAttribute('position', new BufferAttribute(gather(positions, corners), 3));
@@ -67,7 +80,7 @@ export class MeshLayer extends Layer {
       colors.needsUpdate = true;
     };
     this.paint();
-    return new Mesh(geometry, withEdges(surfaceMaterial(), palette.meshEdge));
+    return new Mesh(geometry, withEdges(surfaceMaterial(), palette.meshEdge, this.flatness));
   }
 
   private colorOf(mesh: MeshResult, element: number, palette: Palette): Color {
@@ -78,9 +91,33 @@ export class MeshLayer extends Layer {
       return palette.triangle;
     }
     return this.look.faceColors
-      ? faceColor(mesh.elementFace[element]!, palette).lerp(palette.plain, 0.35)
+      ? palette.faces[this.tints[mesh.elementFace[element]!]!]!.clone().lerp(palette.plain, 0.2)
       : palette.plain;
   }
+}
+
+/** The elements cut into triangles: three vertices each, and the element of each. */
+export function elementTriangles(elements: Int32Array): { corners: Int32Array; element: Int32Array } {
+  const index = halves(elements);
+  const element = new Int32Array(index.length / 3).map((_, t) => Math.floor(index[3 * t]! / 4));
+  return { corners: new Int32Array(index).map((corner) => elements[corner]!), element };
+}
+
+/** A border around each triangle, for when its colour says something else. */
+function triangleOutlines({ elements }: MeshResult, positions: Float32Array, palette: Palette): Object3D {
+  const pairs: number[] = [];
+  for (let i = 0; i < elements.length; i += 4) {
+    const [a = 0, b = 0, c = 0, d = 0] = elements.subarray(i, i + 4);
+    if (d < 0) {
+      pairs.push(a, b, b, c, c, a);
+    }
+  }
+  if (pairs.length === 0) {
+    return new Object3D();
+  }
+  const lines = lineSegments(gather(positions, pairs), palette.triangle, 3);
+  lines.renderOrder = 2;
+  return lines;
 }
 
 /** Two triangles of each quad, one of each triangle. */
@@ -108,16 +145,17 @@ function sideDistances(elements: Int32Array): Uint8Array {
 
 /**
  * Draws the elements' sides in the fragment shader: always in front, with soft borders, and fading where elements are
- * smaller than a few pixels.
+ * smaller than a few pixels. `flatness` is the share of the surface's colour that no light changes.
  */
-function withEdges(material: MeshStandardMaterial, color: Color): MeshStandardMaterial {
+function withEdges(material: MeshStandardMaterial, color: Color, flatness: { value: number }): MeshStandardMaterial {
   material.onBeforeCompile = (shader) => {
     shader.uniforms['edgeColor'] = { value: color };
+    shader.uniforms['flatness'] = flatness;
     shader.vertexShader = shader.vertexShader
       .replace('#include <common>', '#include <common>\nattribute vec4 sides;\nvarying vec4 vSides;')
       .replace('#include <begin_vertex>', '#include <begin_vertex>\nvSides = sides;');
     shader.fragmentShader = shader.fragmentShader
-      .replace('#include <common>', '#include <common>\nvarying vec4 vSides;\nuniform vec3 edgeColor;')
+      .replace('#include <common>', '#include <common>\nvarying vec4 vSides;\nuniform vec3 edgeColor;\nuniform float flatness;')
       .replace(
         '#include <opaque_fragment>',
         /* glsl */ `
@@ -127,7 +165,7 @@ function withEdges(material: MeshStandardMaterial, color: Color): MeshStandardMa
         float edge = 1.0 - smoothstep(0.35, 1.15, nearest);
         float crowding = max(max(perPixel.x, perPixel.y), max(perPixel.z, perPixel.w));
         edge *= mix(0.82, 0.22, smoothstep(0.12, 0.45, crowding));
-        outgoingLight = mix(outgoingLight, edgeColor, edge);
+        outgoingLight = mix(mix(outgoingLight, diffuseColor.rgb, flatness), edgeColor, edge);
         #include <opaque_fragment>`,
       );
   };

@@ -2,9 +2,8 @@ import { Color } from 'three';
 
 /** The colours of the scene; the page's own are in styles/tokens.css. */
 export interface Palette {
-  /** Lightness and chroma of the faces, OKLCH-like. */
-  readonly faceLightness: number;
-  readonly faceSaturation: number;
+  /** Of the faces, by tint. */
+  readonly faces: readonly Color[];
   readonly plain: Color;
   readonly sharp: Color;
   readonly boundary: Color;
@@ -13,6 +12,11 @@ export interface Palette {
   readonly triangle: Color;
   readonly cross: Color;
   readonly pinnedCross: Color;
+  /** By what pins the cross: nothing, a boundary, a sharp, a non-manifold edge, curvature, the user. */
+  readonly pins: readonly Color[];
+  readonly removedPin: Color;
+  /** What the pointer is on, or what was chosen. */
+  readonly highlight: Color;
   readonly positive: Color;
   readonly negative: Color;
   readonly ring: Color;
@@ -20,17 +24,33 @@ export interface Palette {
   readonly groundLight: Color;
 }
 
+/** Twelve quiet colours, far apart in hue, with turns in lightness for those who see hues less well. */
+const faceColors = [
+  '#a3dbd2',
+  '#f4c59d',
+  '#b9c7f4',
+  '#eebcd9',
+  '#cfe39f',
+  '#f3e6a0',
+  '#a8d6f5',
+  '#d7bdf2',
+  '#f3b3ae',
+  '#acdfb3',
+  '#dccbae',
+  '#bccad1',
+].map((color) => new Color(color));
+
 const shared = {
   triangle: new Color('#f0883a'),
   positive: new Color('#d63649'),
   negative: new Color('#2f6be0'),
   ring: new Color('#ffffff'),
+  highlight: new Color('#ffc400'),
 };
 
 export const lightPalette: Palette = {
   ...shared,
-  faceLightness: 0.83,
-  faceSaturation: 0.42,
+  faces: faceColors,
   plain: new Color('#e3e7e2'),
   sharp: new Color('#17211d'),
   boundary: new Color('#0a7f66'),
@@ -38,14 +58,15 @@ export const lightPalette: Palette = {
   meshEdge: new Color('#1d2b26'),
   cross: new Color('#4a5b54'),
   pinnedCross: new Color('#07806a'),
+  pins: ['#4a5b54', '#0a7f66', '#17211d', '#a3238f', '#2a50d0', '#c05a00'].map((color) => new Color(color)),
+  removedPin: new Color('#e0141f'),
   skyLight: new Color('#ffffff'),
   groundLight: new Color('#9fa9a6'),
 };
 
 export const darkPalette: Palette = {
   ...shared,
-  faceLightness: 0.68,
-  faceSaturation: 0.24,
+  faces: faceColors.map((color) => color.clone().multiplyScalar(0.62)),
   plain: new Color('#b4bcb6'),
   sharp: new Color('#050807'),
   boundary: new Color('#5ff0c6'),
@@ -53,26 +74,19 @@ export const darkPalette: Palette = {
   meshEdge: new Color('#0a100e'),
   cross: new Color('#1f2b27'),
   pinnedCross: new Color('#006c56'),
+  pins: ['#1f2b27', '#5ff0c6', '#050807', '#ff7be9', '#1733a8', '#8a3d00'].map((color) => new Color(color)),
+  removedPin: new Color('#c00012'),
   skyLight: new Color('#ffffff'),
   groundLight: new Color('#59625d'),
 };
 
-const goldenRatio = 0.6180339887498949;
-
-/** A quiet colour for a face; neighbours in number are far apart in hue. */
-export function faceColor(face: number, palette: Palette): Color {
-  const hue = (0.42 + face * goldenRatio) % 1;
-  // Alternating lightness keeps faces apart for those who see hues less well.
-  const lightness = palette.faceLightness + (face % 3) * 0.025 - 0.025;
-  return new Color().setHSL(hue, palette.faceSaturation, lightness);
-}
-
+/** Good elements are pale, so that the bad ones are what is seen. */
 const qualityStops: readonly [number, Color][] = [
-  [0, new Color('#a01c3c')],
-  [0.3, new Color('#e0583a')],
-  [0.6, new Color('#f3c55b')],
-  [0.85, new Color('#9fd4a4')],
-  [1, new Color('#178f79')],
+  [0, new Color('#8f1038')],
+  [0.3, new Color('#df4a32')],
+  [0.6, new Color('#f3bd4e')],
+  [0.85, new Color('#c3e0a4')],
+  [1, new Color('#d9eee4')],
 ];
 
 /** The colour of a scaled Jacobian; 0 and below share the worst one. */

@@ -4,7 +4,8 @@ import type { Frame } from './frame.js';
 import { Layer } from './layer.js';
 import { lineSegments, gather } from './lines.js';
 import { cornerNormals } from './normals.js';
-import { faceColor, type Palette } from './palette.js';
+import type { Palette } from './palette.js';
+import { faceTints } from './tints.js';
 
 /** How the part is shown: alone, or as the quiet ground of a field or of nothing. */
 export interface PartLook {
@@ -49,8 +50,9 @@ export class PartLayer extends Layer {
     geometry.setAttribute('normal', new BufferAttribute(normals, 3));
     const colors = new BufferAttribute(new Float32Array(3 * corners.length), 3);
     geometry.setAttribute('color', colors);
+    const tints = faceTints(part.triangles, 3, part.triangleFace, part.faceNames.length);
     this.paint = () => {
-      const faceColors = part.faceNames.map((_, face) => this.colorOf(face, palette));
+      const faceColors = Array.from(tints, (tint) => this.colorOf(tint, palette));
       for (let corner = 0; corner < corners.length; ++corner) {
         const color = faceColors[part.triangleFace[Math.floor(corner / 3)]!] ?? palette.plain;
         colors.setXYZ(corner, color.r, color.g, color.b);
@@ -61,8 +63,8 @@ export class PartLayer extends Layer {
     return new Mesh(geometry, surfaceMaterial());
   }
 
-  private colorOf(face: number, palette: Palette): Color {
-    const color = this.look.faceColors ? faceColor(face, palette) : palette.plain.clone();
+  private colorOf(tint: number, palette: Palette): Color {
+    const color = (this.look.faceColors ? palette.faces[tint]! : palette.plain).clone();
     return this.look.ground ? color.lerp(palette.plain, 0.55) : color;
   }
 }

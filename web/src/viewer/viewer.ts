@@ -1,8 +1,11 @@
 import { DirectionalLight, HemisphereLight, MathUtils, PerspectiveCamera, Scene, Vector3, WebGLRenderer } from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 import type { FieldResult, InspectResult, MeshResult } from 'qmcf';
-import { FieldLayer } from './field_layer.js';
+import type { Target } from '../state.js';
+import { FieldLayer, type FieldLook } from './field_layer.js';
 import { Frame } from './frame.js';
+import { HighlightLayer, placeOf } from './highlight_layer.js';
+import { Inspector } from './inspector.js';
 import { MeshLayer, type MeshLook } from './mesh_layer.js';
 import { darkPalette, lightPalette, type Palette } from './palette.js';
 import { PartLayer, type PartLook } from './part_layer.js';
@@ -18,7 +21,7 @@ export interface FreeArea {
 /** What is drawn, and how. */
 export interface Look {
   readonly part: PartLook | undefined;
-  readonly field: boolean;
+  readonly field: FieldLook | undefined;
   readonly mesh: MeshLook | undefined;
 }
 
@@ -35,6 +38,9 @@ export class Viewer {
   private readonly partLayer = new PartLayer();
   private readonly fieldLayer = new FieldLayer();
   private readonly meshLayer = new MeshLayer();
+  private readonly highlight = new HighlightLayer();
+  private readonly inspector = new Inspector();
+  private target: Target | undefined;
   private readonly sky = new HemisphereLight();
   private frame: Frame | undefined;
   /** Of the part's vertices, in the scene. */
@@ -47,7 +53,7 @@ export class Viewer {
   constructor(private readonly canvas: HTMLCanvasElement) {
     this.renderer = new WebGLRenderer({ canvas, antialias: true, alpha: true });
     this.renderer.setPixelRatio(Math.min(2, window.devicePixelRatio));
-    this.scene.add(this.partLayer, this.fieldLayer, this.meshLayer, this.camera, this.sky);
+    this.scene.add(this.partLayer, this.fieldLayer, this.meshLayer, this.highlight, this.camera, this.sky);
     this.addCameraLights();
     this.camera.up.set(0, 0, 1);
     this.controls = new OrbitControls(this.camera, canvas);
@@ -55,6 +61,7 @@ export class Viewer {
     this.controls.dampingFactor = 0.12;
     this.controls.zoomToCursor = true;
     this.controls.addEventListener('change', () => this.invalidate());
+    canvas.addEventListener('webglcontextrestored', () => this.invalidate());
     new ResizeObserver(() => this.resize()).observe(canvas);
     const dark = window.matchMedia('(prefers-color-scheme: dark)');
     dark.addEventListener('change', () => this.setPalette(dark.matches));
@@ -69,16 +76,18 @@ export class Viewer {
       this.positions = this.frame.place(part.positions);
       delete this.shown.field;
       delete this.shown.mesh;
-      this.fieldLayer.clear();
+      this.fieldLayer.hide();
       this.meshLayer.clear();
+      this.inspector.setMesh(undefined, this.positions);
       this.fit();
     }
+    this.inspector.setPart(part, this.positions);
     this.partLayer.show(part, this.frame, this.palette);
     this.invalidate();
   }
 
   setField(field: FieldResult | undefined): void {
-    this.fieldLayer.clear();
+    this.fieldLayer.hide();
     delete this.shown.field;
     if (field && this.frame) {
       this.shown.field = field;
@@ -93,20 +102,58 @@ export class Viewer {
     if (mesh && this.frame) {
       this.shown.mesh = mesh;
       this.meshLayer.show(mesh, this.frame, this.palette);
+      this.inspector.setMesh(mesh, this.frame.place(mesh.positions));
     }
     this.invalidate();
   }
 
   setLook(look: Look): void {
     this.partLayer.visible = look.part !== undefined;
-    this.fieldLayer.visible = look.field;
+    this.fieldLayer.visible = look.field !== undefined;
     this.meshLayer.visible = look.mesh !== undefined;
     if (look.part) {
       this.partLayer.setLook(look.part);
     }
+    if (look.field) {
+      this.fieldLayer.setLook(look.field);
+    }
     if (look.mesh) {
       this.meshLayer.setLook(look.mesh);
     }
+    this.invalidate();
+  }
+
+  /** What is drawn at a place of the window, in CSS pixels. */
+  pick(clientX: number, clientY: number): Target | undefined {
+    const { left, top, width, height } = this.canvas.getBoundingClientRect();
+    return this.inspector.pick(this.camera, this.meshLayer.visible, clientX - left, clientY - top, width, height);
+  }
+
+  /** Marks a face, edge or element of what is seen; nothing when there is no such thing. */
+  mark(target: Target | undefined): void {
+    this.target = target;
+    this.highlight.show(target && this.inspector.outlineOf(target, this.meshLayer.visible), this.palette);
+    this.invalidate();
+  }
+
+  /** Moves the camera so that the target is seen from its front, with some of what is around it. */
+  zoomTo(target: Target): void {
+    const outline = this.inspector.outlineOf(target, this.meshLayer.visible);
+    if (!outline) {
+      return;
+    }
+    const { sphere, normal } = placeOf(outline);
+    const before = this.camera.position.clone().sub(this.controls.target).normalize();
+    const around = target.kind === 'element' ? 7 : 1.6;
+    const room = Math.min(this.free.width, this.free.height) / (2 * around * Math.max(sphere.radius, 1e-4));
+    const wanted = (this.canvas.clientHeight || 1) / (2 * tangent * room);
+    const { direction, distance } =
+      target.kind === 'element'
+        ? this.inspector.lookout(sphere, normal, before, wanted)
+        : { direction: normal.addScaledVector(before, 0.6).normalize(), distance: wanted };
+    this.controls.target.copy(sphere.center);
+    this.camera.position.copy(sphere.center).addScaledVector(direction, distance);
+    this.controls.update();
     this.invalidate();
   }
 
@@ -134,7 +181,7 @@ export class Viewer {
       .addScaledVector(up, upwards!.middle)
       .addScaledVector(viewDirection, depth!.middle);
     this.camera.position.copy(this.controls.target).addScaledVector(viewDirection, distance);
-    this.controls.minDistance = 0.02;
+    this.controls.minDistance = 0.002;
     this.controls.maxDistance = 6 * distance;
     this.controls.update();
     this.invalidate();
@@ -185,6 +232,7 @@ export class Viewer {
       this.setPart(part, false);
       this.setField(field);
       this.setMesh(mesh);
+      this.mark(this.target);
     }
     this.invalidate();
   }

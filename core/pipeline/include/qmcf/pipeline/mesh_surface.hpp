@@ -32,6 +32,7 @@ struct MeshOptions {
   std::optional<std::int64_t> quads;  ///< Number of elements to aim at, 1 to 10,000,000. Default 3000 if size is unset.
   double featureAngle = 30.0;         ///< Dihedral angle in degrees, (0, 180), from which an edge is sharp.
   Mode mode = Mode::qmcf;             ///< The advancing front.
+  bool repair = true;                 ///< false: defects of the input are reported and left as they are.
   double gradation = 0.2;             ///< Largest slope of the size field, (0, 1].
   bool alignBoundary = true;          ///< Field constraint: boundary edges.
   bool alignSharp = true;             ///< Field constraint: sharp edges.
@@ -78,8 +79,8 @@ struct MeshResult {
   std::int64_t refinedPlaces = 0;       ///< Where elements of the size asked for could not follow the part: smaller there.
 };
 
-/// Repair and B-rep only. Errors: as repair() and recoverBrep().
-Result<InspectResult> inspectSurface(const TriangleMesh& input, double featureAngle, Progress& progress);
+/// Repair and B-rep only; of the options, repair and featureAngle matter. Errors: as repair() and recoverBrep().
+Result<InspectResult> inspectSurface(const TriangleMesh& input, const MeshOptions& options, Progress& progress);
 /// Up to the cross field.
 Result<FieldResult> computeField(const TriangleMesh& input, const MeshOptions& options, Progress& progress);
 /// The whole way: a valid quad-dominant mesh of the input, or an error that says why there is none.

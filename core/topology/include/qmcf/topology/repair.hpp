@@ -44,11 +44,14 @@ struct RepairedMesh {
 ///   that are not the wall of a cavity are turned outwards, elsewhere they are reported only: inwardShells; where a piece has one side only, it stays inconsistent along a cut:
 ///   oneSidedEdges;
 /// - a non-manifold edge that a sheet meets in its middle halved: loneNonManifoldEdges;
-/// - vertices without triangles dropped.
+/// - edges with more than two triangles and vertices where sheets touch in a point counted: nonManifoldEdges,
+///   nonManifoldVertices. They stay; recoverBrep() cuts there;
+/// - vertices without triangles dropped: unusedVertices for those of the input.
 ///
-/// Non-manifold edges and vertices stay; recoverBrep() cuts there. With options.modify false, only exact welding,
-/// removal of repeated corners and halving change the mesh; the rest is counted. Errors: noSurface (also when the model
-/// is less than 1e-60 across), nonFiniteCoordinate (also beyond 1e150), indexOutOfRange, tooLarge, cancelled.
+/// Ids of items are vertices for defects of vertices and T-junctions, else triangles. With options.modify false, only
+/// exact welding, removal of repeated corners and halving change the mesh; the rest is counted. Errors: noSurface (also
+/// when the model is less than 1e-60 across), nonFiniteCoordinate (also beyond 1e150), indexOutOfRange, tooLarge,
+/// cancelled.
 Result<RepairedMesh> repair(const TriangleMesh& input, const RepairOptions& options, Progress& progress);
 
 }  // namespace qmcf

@@ -1,0 +1,124 @@
+// The whole way through the page: open, look, mesh, download; and the file that comes out is right.
+import { readFileSync } from 'node:fs';
+import { expect, test } from '@playwright/test';
+import { App, native, sample } from './page.js';
+
+test('a part becomes a valid mesh, the same as from the command line', async ({ page }, info) => {
+  const errors: string[] = [];
+  page.on('pageerror', (error) => errors.push(error.message));
+  page.on('console', (message) => void (message.type() === 'error' && errors.push(message.text())));
+  await page.goto('./');
+  const app = new App(page);
+  await app.openSample('plate_with_holes.stl');
+  const ofPart = await app.picture();
+
+  await app.crosses.check();
+  await expect(app.status).toHaveText(/Cross field with \d+ singularit/);
+  await app.expectChange(ofPart);
+  const ofField = await app.picture();
+  // The plate has six holes through it, so its Euler characteristic is 2 - 2 * 6 = -10. Every singularity of the field and
+  // every corner of the part takes part in that sum; what can be told here is that free and pinned crosses are counted.
+  expect(await app.legend('Pinned crosses')).toBeGreaterThan(100);
+  expect(await app.legend('Free crosses')).toBeGreaterThan(100);
+
+  await app.mesh(1500);
+  await app.expectChange(ofField);
+  const result = page.getByRole('region', { name: 'Result' });
+  await expect(result).toContainText('Valid:');
+
+  const saved = page.waitForEvent('download');
+  await app.download.click();
+  const download = await saved;
+  expect(download.suggestedFilename()).toBe('plate_with_holes-quads.obj');
+  const path = info.outputPath('downloaded.obj');
+  await download.saveAs(path);
+  const check = native('check', path, '--ref', sample('plate_with_holes.stl'));
+  expect(check.status, check.stdout + check.stderr).toBe(0);
+
+  const fromCommandLine = info.outputPath('native.obj');
+  native('mesh', sample('plate_with_holes.stl'), '-o', fromCommandLine, '--quads', '1500', '--quiet');
+  expect(readFileSync(path).equals(readFileSync(fromCommandLine))).toBe(true);
+  expect(errors).toEqual([]);
+});
+
+test('size and count follow each other, and the size asked for is the size used', async ({ page }) => {
+  await page.goto('./');
+  const app = new App(page);
+  await app.openSample('torus.obj');
+  const size = Number(await app.size.inputValue());
+  await app.size.fill(String(2 * size));
+  await expect(app.count).toHaveValue('750');
+  await app.count.fill('12000');
+  expect(Number(await app.size.inputValue())).toBeCloseTo(size / 2, 3);
+  await app.size.fill(String(2 * size));
+  await app.generate.click();
+  await expect(app.status).toHaveText(/^\d{3} quads/);
+});
+
+test('the feature angle decides which edges there are', async ({ page }) => {
+  await page.goto('./');
+  const app = new App(page);
+  await app.openSample('cylinder.obj');
+  expect(await app.legend('Sharp edges')).toBe(2);
+  await page.getByText('Features and directions').click();
+  await page.getByLabel('Feature angle').fill('120');
+  await expect(page.getByRole('list', { name: 'Legend' })).toBeHidden();
+});
+
+test('non-manifold edges and open boundaries are told apart', async ({ page }) => {
+  await page.goto('./');
+  const app = new App(page);
+  await page.getByRole('button', { name: 'Two sheets in a T' }).click();
+  await expect(app.status).toHaveText('t_sheets.obj is open.');
+  expect(await app.legend('Non-manifold edges')).toBe(1);
+  expect(await app.legend('Open boundary')).toBeGreaterThan(5);
+});
+
+test('a file can be dropped on the page', async ({ page }) => {
+  await page.goto('./');
+  const app = new App(page);
+  const transfer = await page.evaluateHandle((content) => {
+    const data = new DataTransfer();
+    data.items.add(new File([content], 'dropped.obj'));
+    return data;
+  }, readFileSync(sample('cylinder.obj'), 'utf8'));
+  await page.dispatchEvent('body', 'dragenter', { dataTransfer: transfer });
+  await expect(page.getByText('Drop to open')).toBeVisible();
+  await page.dispatchEvent('body', 'drop', { dataTransfer: transfer });
+  await expect(app.status).toHaveText('dropped.obj is open.');
+  await expect(page.getByText('Drop to open')).toBeHidden();
+});
+
+/** How a file of each format begins or what it must hold. */
+const signs: Record<string, RegExp> = {
+  obj: /^f \d+ \d+ \d+ \d+$/m,
+  vtu: /<VTKFile type="UnstructuredGrid"/,
+  ply: /^ply\n/,
+  stl: /^[^]{84}/,
+  msh: /^\$MeshFormat\n4\.1 /,
+  inp: /\*ELEMENT, *TYPE=S4/i,
+  bdf: /^CQUAD4/m,
+};
+
+test('every format can be downloaded, and is what its name says', async ({ page }, info) => {
+  await page.goto('./');
+  const app = new App(page);
+  await app.openSample('cylinder.obj');
+  await app.mesh(300);
+  const formats = page.getByLabel('File format');
+  const names = await formats.locator('option').evaluateAll((all) => all.map((o) => (o as HTMLOptionElement).value));
+  expect(names.sort()).toEqual(Object.keys(signs).sort());
+  for (const name of names) {
+    await formats.selectOption(name);
+    const saved = page.waitForEvent('download');
+    await app.download.click();
+    const download = await saved;
+    expect(download.suggestedFilename()).toBe(`cylinder-quads.${name}`);
+    const path = info.outputPath(`mesh.${name}`);
+    await download.saveAs(path);
+    expect(readFileSync(path, 'latin1')).toMatch(signs[name]!);
+    if (['obj', 'ply'].includes(name)) {
+      expect(native('check', path, '--ref', sample('cylinder.obj')).status).toBe(0);
+    }
+  }
+});
