@@ -141,13 +141,13 @@ std::optional<Error> assign(Mode& option, std::string_view name, const val& give
 /// Calls visit(name, field) for every option. The structured binding fails to compile when MeshOptions gains a field.
 template <class Visit>
 void forEachOption(MeshOptions& options, Visit visit) {
-  auto& [size,       quads,         featureAngle, mode,             repair,
-         gradation,  alignBoundary, alignSharp,   alignNonManifold, alignCurvature] =
-      options;
+  auto& [size,      quads,         featureAngle, mode,             allQuad,       repair,
+         gradation, alignBoundary, alignSharp,   alignNonManifold, alignCurvature] = options;
   visit("size", size);
   visit("quads", quads);
   visit("featureAngle", featureAngle);
   visit("mode", mode);
+  visit("allQuad", allQuad);
   visit("repair", repair);
   visit("gradation", gradation);
   visit("alignBoundary", alignBoundary);

@@ -26,6 +26,8 @@ export interface MeshOptions {
   repair?: boolean | undefined;
   /** Default `qmcf`. */
   mode?: Mode | undefined;
+  /** True: no triangles; a mesh of twice the size whose elements are cut at the middles of their edges. Default false. */
+  allQuad?: boolean | undefined;
   /** Largest slope of the size field, above 0 and at most 1. Default 0.2. */
   gradation?: number | undefined;
   /** Field constraint: boundary edges. Default true. */
@@ -44,6 +46,7 @@ export const meshOptionNames = [
   'quads',
   'featureAngle',
   'mode',
+  'allQuad',
   'repair',
   'gradation',
   'alignBoundary',

@@ -70,7 +70,7 @@ std::int64_t cutInverted(EditMesh& mesh) {
 Result<CleanupResult> cleanUp(const FaceMesh& mesh, const Patch& patch, const TriangleBvh& target,
                               const CleanupOptions& options, Progress& progress) {
   EditMesh work(mesh);
-  const RelaxationTarget where{patch, target};
+  const RelaxationTarget where{patch, target, options.sizeScale};
   TopologicalCleanup topology(work, patch, where, options);
   const auto allVertices = [&] {
     std::vector<VertexId> vertices;
@@ -104,7 +104,7 @@ Result<CleanupResult> cleanUp(const FaceMesh& mesh, const Patch& patch, const Tr
     if (largest < kStill) break;
   }
   const std::int64_t turnedOver = untangle(work, where);
-  const std::int64_t cuts = cutInverted(work);
+  const std::int64_t cuts = options.quadsOnly ? 0 : cutInverted(work);
   CleanupResult result{extract(work, mesh), topology.statistics(), 1.0, {}};
   result.statistics.turnedOver = turnedOver;
   result.statistics.cuts = cuts;

@@ -60,7 +60,7 @@ double relax(EditMesh& mesh, const std::vector<VertexId>& vertices, const Relaxa
   for (const VertexId v : vertices) {
     if (!mesh.alive(v) || mesh.isBoundary(v)) continue;
     const EditMesh::Vertex& vertex = mesh.vertex(v);
-    const double size = interpolate(target.patch.surface, target.patch.size, vertex.location);
+    const double size = target.sizeScale * interpolate(target.patch.surface, target.patch.size, vertex.location);
     Vec3 sum;
     int count = 0;
     mesh.forEachOutgoing(v, [&](HalfedgeId h) {

@@ -12,6 +12,7 @@ namespace qmcf {
 struct RelaxationTarget {
   const Patch& patch;       ///< Sizes and normals.
   const TriangleBvh& face;  ///< The face's input triangles.
+  double sizeScale = 1.0;   ///< Element length in units of the patch's sizes.
 };
 
 /// The place on the face nearest to a position, with normal and location.

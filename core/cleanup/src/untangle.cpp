@@ -28,7 +28,8 @@ struct Stand {
   double penalty = 0.0;  ///< 0 when every corner is upright and well shaped.
 };
 
-/// A corner is turned over when it faces against the surface both below itself and below the element's centre.
+/// A corner is turned over when it faces against the surface both below itself and below the element's centre, or is
+/// reflex.
 Stand standOf(const EditMesh& mesh, const TriangleBvh& surface, FaceId f) {
   const auto sides = mesh.sides(f);
   const std::size_t corners = sides[3].valid() ? 4 : 3;
@@ -53,11 +54,11 @@ Stand standOf(const EditMesh& mesh, const TriangleBvh& surface, FaceId f) {
       const Vec3 quarter = p(i) + (centre - p(i)) * 0.25;
       upright = std::max(upright, dot(normal, surface.normal(surface.closest(quarter).triangle)));
     }
-    stand.turnedOver = stand.turnedOver || upright <= 0.0;
     stand.penalty += std::max(0.0, kUpright - upright);
     const double lengths = norm(forward) * norm(backward);
     const double square = corners == 4 && lengths > 0.0 ? dot(area, own) / lengths : norm(area) / std::max(lengths, 1e-300);
     stand.penalty += 2.0 * std::max(0.0, kSquare - square);
+    stand.turnedOver = stand.turnedOver || upright <= 0.0 || square <= 0.0;
   }
   return stand;
 }
@@ -74,7 +75,7 @@ bool moveToBest(EditMesh& mesh, const RelaxationTarget& target, VertexId v) {
   const double before = penaltyAround(mesh, target.face, v);
   if (!(before > 0.0)) return false;
   const EditMesh::Vertex start = mesh.vertex(v);
-  const double size = interpolate(target.patch.surface, target.patch.size, start.location);
+  const double size = target.sizeScale * interpolate(target.patch.surface, target.patch.size, start.location);
   const Vec3 side = mesh.position(mesh.target(mesh.outgoing(v))) - start.position;
   const Vec3 x = normalized(tangentPart(side, start.normal));
   const Vec3 y = cross(start.normal, x);

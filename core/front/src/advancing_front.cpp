@@ -281,7 +281,7 @@ void Advance::startFronts() {
   }
   bool any = false;
   for (std::size_t i = 0; i < mesh().halfedgeCapacity() && !any; ++i) any = front_.isFront(HalfedgeId(i));
-  if (!any) placeSeed(front_);
+  if (!any) placeSeed(front_, options_.seedPlace);
   mesh().commit();
   for (std::size_t i = 0; i < mesh().halfedgeCapacity(); ++i) {
     if (front_.isFront(HalfedgeId(i))) enqueue(HalfedgeId(i));

@@ -117,6 +117,8 @@ WalkResult walkTowards(const FrontMesh& front, HalfedgeId sector, const Vec3& ta
     if (front.isFront(edge)) return {WalkResult::End::blocked, {}, edge, crossingFraction(a, p, u, v)};
     const HalfedgeId t = mesh.twin(edge);
     const Vec2 w = at(mesh, plane, mesh.origin(mesh.prev(t)));
+    // Beyond the horizon, as seen along the plane's normal, the way can't be told any more.
+    if (!(orient(v, u, w) > 0.0)) return {};
     edge = orient(a, p, w) > 0.0 ? mesh.next(t) : mesh.prev(t);
   }
   return {};

@@ -169,10 +169,13 @@ bool placeStar(FrontMesh& front, const Singularity& singularity) {
   return placeCells(front, start, vertices, cells);
 }
 
-bool placeSeed(FrontMesh& front) {
+bool placeSeed(FrontMesh& front, double place) {
   const EditMesh& mesh = front.mesh();
   // Any place will do; the next one is tried only where the quad can't be cut out of the triangulation.
-  for (const TriangleId t : front.patch().surface.triangles()) {
+  const std::size_t count = front.patch().surface.triangleCount();
+  const auto first = static_cast<std::size_t>(place * static_cast<double>(count));
+  for (std::size_t i = 0; i < count; ++i) {
+    const TriangleId t((first + i) % count);
     const EditMesh::Vertex centre =
         front.vertexNear({t, {1.0 / 3, 1.0 / 3, 1.0 / 3}}, positionOf(front.patch().surface, {t, {1.0 / 3, 1.0 / 3, 1.0 / 3}}));
     const double h = front.sizeAt(centre.location);

@@ -10,6 +10,6 @@ namespace qmcf {
 bool placeStar(FrontMesh& front, const Singularity& singularity);
 
 /// Places a single quad along the field in the middle of a patch that has neither boundary nor singularity.
-bool placeSeed(FrontMesh& front);
+bool placeSeed(FrontMesh& front, double place);
 
 }  // namespace qmcf

@@ -63,8 +63,13 @@ int agreement(const Brep& brep, std::int32_t face, std::int32_t twin) {
 CoveredFaces coveredFaces(const TriangleMesh& mesh, const Brep& brep, double distance) {
   std::vector<std::pair<std::vector<std::int32_t>, std::int32_t>> byEdges;
   for (std::size_t f = 0; f < brep.faces.size(); ++f) {
-    if (brep.faces[f].loops.empty()) continue;
-    byEdges.emplace_back(edgesOf(brep.faces[f]), static_cast<std::int32_t>(f));
+    // Elsewhere the edges would be left with one face, and open.
+    std::vector<std::int32_t> edges = edgesOf(brep.faces[f]);
+    const bool hasOthers = std::all_of(edges.begin(), edges.end(), [&brep](std::int32_t e) {
+      return brep.edges[static_cast<std::size_t>(e)].kind == EdgeKind::nonManifold;
+    });
+    if (edges.empty() || !hasOthers) continue;
+    byEdges.emplace_back(std::move(edges), static_cast<std::int32_t>(f));
   }
   std::sort(byEdges.begin(), byEdges.end());
   CoveredFaces covered{std::vector<std::int32_t>(brep.faces.size(), kNone), std::vector<std::uint8_t>(brep.faces.size(), 0)};

@@ -1,11 +1,14 @@
 #include "mesh_faces.hpp"
 
+#include <array>
 #include <cstddef>
 #include <utility>
 
 #include "qmcf/cleanup/cleanup.hpp"
+#include "qmcf/cleanup/subdivide.hpp"
 #include "qmcf/front/advancing_front.hpp"
 #include "qmcf/qmorph/qmorph.hpp"
+#include "qmcf/sizing/edge_curve.hpp"
 #include "qmcf/spatial/triangle_bvh.hpp"
 #include "too_coarse.hpp"
 
@@ -38,19 +41,68 @@ FaceMesh trianglesOf(const Patch& patch) {
 }
 
 void count(MeshedFace& face) {
+  face.report.quads = face.report.triangles = 0;
   for (const Element& element : face.mesh.elements)
     ++(cornerCount(element) == 4 ? face.report.quads : face.report.triangles);
 }
 
-/// The front of the chosen mode, before the clean-up.
+constexpr std::array<double, 4> kSeedPlaces{0.0, 0.37, 0.61, 0.83};
+
+/// A division of an edge of the B-rep.
+struct Division {
+  std::int32_t edge = kNone;
+  std::size_t index = 0;  ///< Of its first node.
+};
+
+/// The division under a boundary half-edge of a patch. \pre patch.edge[h] is an edge
+Division divisionOf(const Patch& patch, HalfedgeId h, const DividedEdges& divided) {
+  const std::int32_t edge = patch.edge[h];
+  const std::int32_t a = patch.node[patch.surface.origin(h)];
+  const std::int32_t b = patch.node[patch.surface.target(h)];
+  const auto& nodes = divided.edges[static_cast<std::size_t>(edge)].nodes;
+  std::size_t i = 0;
+  while (i + 2 < nodes.size() && !(nodes[i] == a && nodes[i + 1] == b) && !(nodes[i] == b && nodes[i + 1] == a)) ++i;
+  return {edge, i};
+}
+
+/// Area of a face mesh, and its share of triangles.
+struct Yield {
+  double area = 0.0;
+  double triangleShare = 0.0;
+};
+
+Yield yieldOf(const FaceMesh& mesh) {
+  Yield yield;
+  for (const Element& element : mesh.elements) {
+    const auto p = [&](std::size_t i) -> const Vec3& { return mesh.positions[static_cast<std::size_t>(element[i])]; };
+    const bool quad = cornerCount(element) == 4;
+    yield.area += 0.5 * norm(quad ? cross(p(2) - p(0), p(3) - p(1)) : cross(p(1) - p(0), p(2) - p(0)));
+    yield.triangleShare += quad ? 0.0 : 1.0 / static_cast<double>(mesh.elements.size());
+  }
+  return yield;
+}
+
+/// Whether a front got stuck: most of what it should have made is bridged by triangles.
+bool gotStuck(const FaceMesh& mesh, const Patch& patch) {
+  constexpr double kMostTriangles = 0.3;
+  constexpr double kLeastArea = 0.9;
+  constexpr std::size_t kFew = 12;
+  const Yield yield = yieldOf(mesh);
+  const bool isSmall = mesh.elements.size() < kFew && patch.surface.triangleCount() < 4 * kFew;
+  return !isSmall && (yield.triangleShare > kMostTriangles || yield.area < kLeastArea * yieldOf(trianglesOf(patch)).area);
+}
+
+/// The front of the chosen mode, before the clean-up. seedPlace: where a front starts that nothing else does.
 Result<FaceMesh> advance(const Patch& patch, const PreparedFaces& prepared, const TriangleBvh& tree, std::size_t face,
-                         Mode mode, Progress& progress) {
+                         Mode mode, double seedPlace, Progress& progress) {
   if (mode == Mode::qmorph) {
     auto front = advanceMorph(patch, tree, MorphOptions{}, progress);
     if (!front) return front.error();
     return std::move(front.value().mesh);
   }
-  auto front = advanceFront(patch, prepared.fields[face], FrontOptions{}, progress);
+  FrontOptions frontOptions;
+  frontOptions.seedPlace = seedPlace;
+  auto front = advanceFront(patch, prepared.fields[face], frontOptions, progress);
   if (!front) return front.error();
   return std::move(front.value().mesh);
 }
@@ -65,17 +117,24 @@ Result<MeshedFace> meshFace(const TriangleMesh& mesh, const Brep& brep, const Pr
   MeshedFace result;
   result.report.face = face;
 
-  auto front = advance(patch, prepared, tree, f, options.mode, progress);
-  if (!front) return front.error();
+  // A front that got stuck may do better from another start, where the start is free.
+  bool isStuck = true;
+  Result<FaceMesh> front = FaceMesh{};
+  for (std::size_t start = 0; isStuck && start < (brep.faces[f].loops.empty() ? kSeedPlaces.size() : 1); ++start) {
+    front = advance(patch, prepared, tree, f, options.mode, kSeedPlaces[start], progress);
+    if (!front) return front.error();
+    isStuck = gotStuck(front.value(), patch);
+  }
   auto cleaned = cleanUp(front.value(), patch, tree, CleanupOptions{}, progress);
   if (!cleaned) return cleaned.error();
-  if (cleaned.value().degenerate.empty()) {
+  if (cleaned.value().degenerate.empty() && !isStuck) {
     result.mesh = std::move(cleaned.value().mesh);
     result.report.method = modeName(options.mode);
     count(result);
     return result;
   }
-  result.report.reason = "the advancing front left elements without area or turned in on themselves";
+  result.report.reason = isStuck ? "the advancing front got stuck and left more than triangles can bridge well"
+                                 : "the advancing front left elements without area or turned in on themselves";
   result.tooCoarse = halvedAt(cleaned.value().mesh, cleaned.value().degenerate, face);
   auto paired = cleanUp(recombinePatch(patch).mesh, patch, tree, CleanupOptions{}, progress);
   if (!paired) return paired.error();
@@ -91,6 +150,34 @@ Result<MeshedFace> meshFace(const TriangleMesh& mesh, const Brep& brep, const Pr
   return result;
 }
 
+Result<MeshedFace> subdivideFace(const TriangleMesh& mesh, const Brep& brep, const PreparedFaces& prepared,
+                                 const MeshedFace& face, Progress& progress) {
+  const auto f = static_cast<std::size_t>(face.report.face);
+  const Patch& patch = prepared.patches[f];
+  const TriangleBvh tree = faceTree(mesh, brep.faces[f]);
+  IdMap<HalfedgeId, Vec3> middle(patch.surface.halfedgeCount());
+  for (const HalfedgeId h : IdRange<HalfedgeId>(patch.surface.halfedgeCount())) {
+    if (!patch.surface.isBoundary(h)) continue;
+    const Division division = divisionOf(patch, h, prepared.divided);
+    const auto e = static_cast<std::size_t>(division.edge);
+    const auto& arc = prepared.divided.edges[e].arcLength;
+    const double s = 0.5 * (arc[division.index] + arc[division.index + 1]);
+    middle[h] = edgeCurve(mesh, brep.edges[e]).at(s);
+  }
+  SubdividedFace cut = subdivide(face.mesh, patch, tree, middle);
+  CleanupOptions options;
+  options.topology = false;
+  options.quadsOnly = true;
+  options.sizeScale = 0.5;
+  auto relaxed = cleanUp(cut.mesh, patch, tree, options, progress);
+  if (!relaxed) return relaxed.error();
+  MeshedFace result = face;
+  result.mesh = std::move(relaxed.value().mesh);
+  result.boundaryEdge = std::move(cut.boundaryEdge);
+  count(result);
+  return result;
+}
+
 QuadMesh joinFaces(const Brep& brep, const PreparedFaces& prepared, const std::vector<MeshedFace>& faces) {
   QuadMesh joined;
   std::vector<std::int32_t> nodeVertex(prepared.divided.nodes.size(), kNone);
@@ -102,6 +189,9 @@ QuadMesh joinFaces(const Brep& brep, const PreparedFaces& prepared, const std::v
     }
     return vertex;
   };
+  // Per division of each edge, the vertex that halves it; used only where the faces were subdivided.
+  std::vector<std::vector<std::int32_t>> halves(brep.edges.size());
+  for (std::size_t e = 0; e < brep.edges.size(); ++e) halves[e].assign(prepared.divided.edges[e].nodes.size() - 1, kNone);
   for (const MeshedFace& face : faces) {
     const Patch& patch = prepared.patches[static_cast<std::size_t>(face.report.face)];
     std::vector<std::int32_t> vertexOf;
@@ -109,6 +199,14 @@ QuadMesh joinFaces(const Brep& brep, const PreparedFaces& prepared, const std::v
       const std::int32_t patchVertex = face.mesh.patchVertex[v];
       if (patchVertex != kNone) {
         vertexOf.push_back(vertexOfNode(patch.node[VertexId(patchVertex)]));
+      } else if (!face.boundaryEdge.empty() && face.boundaryEdge[v].valid()) {
+        const Division division = divisionOf(patch, face.boundaryEdge[v], prepared.divided);
+        std::int32_t& half = halves[static_cast<std::size_t>(division.edge)][division.index];
+        if (half == kNone) {
+          half = static_cast<std::int32_t>(joined.positions.size());
+          joined.positions.push_back(face.mesh.positions[v]);
+        }
+        vertexOf.push_back(half);
       } else {
         vertexOf.push_back(static_cast<std::int32_t>(joined.positions.size()));
         joined.positions.push_back(face.mesh.positions[v]);
@@ -125,8 +223,16 @@ QuadMesh joinFaces(const Brep& brep, const PreparedFaces& prepared, const std::v
   for (std::size_t e = 0; e < brep.edges.size(); ++e) {
     const auto& nodes = prepared.divided.edges[e].nodes;
     for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
-      joined.featureSegments.push_back(
-          {vertexOfNode(nodes[i]), vertexOfNode(nodes[i + 1]), static_cast<std::int32_t>(e)});
+      const auto edge = static_cast<std::int32_t>(e);
+      const std::int32_t a = vertexOfNode(nodes[i]);
+      const std::int32_t b = vertexOfNode(nodes[i + 1]);
+      const std::int32_t half = halves[e][i];
+      if (half == kNone) {
+        joined.featureSegments.push_back({a, b, edge});
+      } else {
+        joined.featureSegments.push_back({a, half, edge});
+        joined.featureSegments.push_back({half, b, edge});
+      }
     }
   }
   return joined;

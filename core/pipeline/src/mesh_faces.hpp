@@ -9,6 +9,7 @@ namespace qmcf {
 /// One face meshed by the first step of the ladder that gives a valid mesh, and how.
 struct MeshedFace {
   FaceMesh mesh;
+  std::vector<HalfedgeId> boundaryEdge;  ///< Per vertex: the patch's boundary edge that it halves; empty if none does.
   FaceReport report;
   std::vector<SizeLimit> tooCoarse;  ///< Where the first step failed, with the size that may help.
 };
@@ -17,6 +18,11 @@ struct MeshedFace {
 /// failing that, the triangles themselves (H 8 of docs/algorithm.md). Errors: cancelled.
 Result<MeshedFace> meshFace(const TriangleMesh& mesh, const Brep& brep, const PreparedFaces& prepared, std::int32_t face,
                             const MeshOptions& options, Progress& progress);
+
+/// Cuts every element at the middles of its edges, so that only quadrilaterals are left, and relaxes them.
+/// Errors: cancelled.
+Result<MeshedFace> subdivideFace(const TriangleMesh& mesh, const Brep& brep, const PreparedFaces& prepared,
+                                 const MeshedFace& face, Progress& progress);
 
 /// Joins the faces' meshes at the nodes that they share. Faces without elements are left out.
 QuadMesh joinFaces(const Brep& brep, const PreparedFaces& prepared, const std::vector<MeshedFace>& faces);

@@ -2,6 +2,8 @@
 #include "qmcf/pipeline/mesh_surface.hpp"
 
 #include <cmath>
+#include <cstddef>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -54,16 +56,112 @@ QualityOptions qualityOptions(const MeshOptions& options, double size) {
   return quality;
 }
 
-/// What the report says about the faces, besides the quality.
-void describe(MeshResult& result, const PreparedFaces& prepared, const std::vector<MeshedFace>& faces) {
-  result.fieldSingularities = 0;
-  for (const CrossField& field : prepared.fields) {
-    result.fieldSingularities += static_cast<std::int64_t>(field.singularities.size());
+/// Meshes an inspected part; as long as the mesh is not valid and smaller elements may help, once more with these.
+class MeshRun {
+ public:
+  MeshRun(MeshResult inspected, const MeshOptions& options, Progress& progress)
+      : result_(std::move(inspected)),
+        mesh_(result_.input.repaired.mesh),
+        brep_(result_.input.brep),
+        options_(options),
+        // Where all elements will be cut up, those before are twice as long.
+        coarsening_(options.allQuad ? 2.0 : 1.0),
+        progress_(progress) {}
+
+  Result<MeshResult> run() {
+    auto preparation = prepareFaces(mesh_, brep_, options_, progress_);
+    if (!preparation) return preparation.error();
+    PreparedFaces prepared = std::move(preparation).value();
+    const double base = prepared.size.base;
+    result_.size = base / coarsening_;
+    covered_ = coveredFaces(mesh_, brep_, kTellApart * base);
+    faces_.resize(brep_.faces.size());
+    std::size_t fewest = 0;
+    for (int attempt = 0;; ++attempt) {
+      if (const auto error = meshChanged(prepared)) return *error;
+      auto joined = join(prepared);
+      if (!joined) return joined.error();
+      if (!progress_.report(Stage::quality, 0.0)) return cancelledError();
+      QualityReport quality = measureQuality(joined.value().mesh, &mesh_, qualityOptions(options_, result_.size));
+      std::vector<SizeLimit> limits = tooCoarse(joined.value().mesh, quality);
+      if (attempt == 0 || limits.size() < fewest) {
+        fewest = limits.size();
+        result_.mesh = std::move(joined.value().mesh);
+        result_.quality = std::move(quality);
+        result_.faces = std::move(joined.value().reports);
+        describe(prepared);
+      }
+      limits = notBelow(limits, kLowestSize * base);
+      if (limits.empty() || attempt == kMaxRefinements) return std::move(result_);
+      auto refined = refineFaces(mesh_, brep_, options_, std::move(prepared), limits, progress_);
+      if (!refined) return refined.error();
+      prepared = std::move(refined).value();
+    }
   }
-  result.faces.clear();
-  for (const MeshedFace& face : faces) result.faces.push_back(face.report);
-  result.refinedPlaces = static_cast<std::int64_t>(prepared.size.limits.size());
-}
+
+ private:
+  struct Joined {
+    QuadMesh mesh;
+    std::vector<FaceReport> reports;
+  };
+
+  std::optional<Error> meshChanged(const PreparedFaces& prepared) {
+    for (const std::int32_t face : prepared.changed) {
+      const auto f = static_cast<std::size_t>(face);
+      if (covered_.below[f] != kNone) {
+        faces_[f] = omittedFace(face, covered_.below[f]);
+        continue;
+      }
+      auto meshed = meshFace(mesh_, brep_, prepared, face, options_, progress_);
+      if (!meshed) return meshed.error();
+      faces_[f] = std::move(meshed).value();
+    }
+    return std::nullopt;
+  }
+
+  Result<Joined> join(const PreparedFaces& prepared) {
+    std::vector<MeshedFace> faces = faces_;
+    for (std::size_t f = 0; f < faces.size(); ++f) {
+      if (options_.allQuad && covered_.below[f] == kNone) {
+        auto cut = subdivideFace(mesh_, brep_, prepared, faces_[f], progress_);
+        if (!cut) return cut.error();
+        faces[f] = std::move(cut).value();
+      }
+      if (covered_.turned[f] != 0) turnRound(faces[f].mesh);
+    }
+    Joined joined{joinFaces(brep_, prepared, faces), {}};
+    for (const MeshedFace& face : faces) joined.reports.push_back(face.report);
+    return joined;
+  }
+
+  /// Where smaller elements may make the mesh valid.
+  [[nodiscard]] std::vector<SizeLimit> tooCoarse(const QuadMesh& joined, const QualityReport& quality) const {
+    std::vector<SizeLimit> limits;
+    for (const MeshedFace& face : faces_) limits.insert(limits.end(), face.tooCoarse.begin(), face.tooCoarse.end());
+    for (SizeLimit limit : halvedWhereInvalid(joined, quality)) {
+      limit.size *= coarsening_;
+      limits.push_back(limit);
+    }
+    return limits;
+  }
+
+  void describe(const PreparedFaces& prepared) {
+    result_.fieldSingularities = 0;
+    for (const CrossField& field : prepared.fields) {
+      result_.fieldSingularities += static_cast<std::int64_t>(field.singularities.size());
+    }
+    result_.refinedPlaces = static_cast<std::int64_t>(prepared.size.limits.size());
+  }
+
+  MeshResult result_;
+  const TriangleMesh& mesh_;
+  const Brep& brep_;
+  MeshOptions options_;
+  double coarsening_;
+  Progress& progress_;
+  CoveredFaces covered_;
+  std::vector<MeshedFace> faces_;
+};
 
 Error invalid(std::string message) { return {ErrorCode::invalidOption, std::move(message), {}}; }
 
@@ -119,46 +217,7 @@ Result<MeshResult> meshSurface(const TriangleMesh& input, const MeshOptions& opt
   if (!inspected) return inspected.error();
   MeshResult result;
   result.input = std::move(inspected).value();
-  const TriangleMesh& mesh = result.input.repaired.mesh;
-  const Brep& brep = result.input.brep;
-  auto preparation = prepareFaces(mesh, brep, withDefaults(options), progress);
-  if (!preparation) return preparation.error();
-  PreparedFaces prepared = std::move(preparation).value();
-  result.size = prepared.size.base;
-  const CoveredFaces covered = coveredFaces(mesh, brep, kTellApart * result.size);
-  std::vector<MeshedFace> faces(brep.faces.size());
-  std::size_t fewest = 0;
-  for (int attempt = 0;; ++attempt) {
-    std::vector<SizeLimit> limits;
-    for (const std::int32_t f : prepared.changed) {
-      const std::int32_t below = covered.below[static_cast<std::size_t>(f)];
-      if (below != kNone) {
-        faces[static_cast<std::size_t>(f)] = omittedFace(f, below);
-        continue;
-      }
-      auto face = meshFace(mesh, brep, prepared, f, options, progress);
-      if (!face) return face.error();
-      if (covered.turned[static_cast<std::size_t>(f)] != 0) turnRound(face.value().mesh);
-      faces[static_cast<std::size_t>(f)] = std::move(face).value();
-    }
-    for (const MeshedFace& face : faces) limits.insert(limits.end(), face.tooCoarse.begin(), face.tooCoarse.end());
-    QuadMesh joined = joinFaces(brep, prepared, faces);
-    if (!progress.report(Stage::quality, 0.0)) return cancelledError();
-    QualityReport quality = measureQuality(joined, &mesh, qualityOptions(options, result.size));
-    const std::vector<SizeLimit> invalid = halvedWhereInvalid(joined, quality);
-    limits.insert(limits.end(), invalid.begin(), invalid.end());
-    if (attempt == 0 || limits.size() < fewest) {
-      fewest = limits.size();
-      result.mesh = std::move(joined);
-      result.quality = std::move(quality);
-      describe(result, prepared, faces);
-    }
-    limits = notBelow(limits, kLowestSize * result.size);
-    if (limits.empty() || attempt == kMaxRefinements) return result;
-    auto refined = refineFaces(mesh, brep, options, std::move(prepared), limits, progress);
-    if (!refined) return refined.error();
-    prepared = std::move(refined).value();
-  }
+  return MeshRun(std::move(result), withDefaults(options), progress).run();
 }
 
 }  // namespace qmcf

@@ -50,6 +50,12 @@ class Preparation {
     sizing_.quads = options.quads;
     sizing_.gradation = options.gradation;
     sizing_.divisionsPerTurn = kDivisionsPerTurn;
+    if (options.allQuad) {
+      // Each element will be cut at the middles of its edges.
+      if (sizing_.size) *sizing_.size *= 2.0;
+      if (sizing_.quads) *sizing_.quads = std::max<std::int64_t>(1, *sizing_.quads / 4);
+      sizing_.divisionsPerTurn = kDivisionsPerTurn / 2;
+    }
     if (options.mode == Mode::qmorph) background_.relativeSize = kMorphTriangleSize;
     minimum_.assign(brep.edges.size(), 1);
     done_.assign(brep.faces.size(), !result_.patches.empty());

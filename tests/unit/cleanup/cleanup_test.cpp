@@ -2,8 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "field/patches.hpp"
 #include "qmcf/base/random.hpp"
+#include "qmcf/cleanup/subdivide.hpp"
 
 namespace qmcf {
 namespace {
@@ -104,6 +107,50 @@ TEST(CleanUp, PairsTrianglesOfASplitQuad) {
   const CleanupResult result = clean(mesh, patch);
   EXPECT_EQ(result.statistics.pairs, 1);
   for (const Element& element : result.mesh.elements) EXPECT_EQ(cornerCount(element), 4U);
+}
+
+TEST(CleanUp, TwoOppositeDipolesGiveWayToAGrid) {
+  const Patch patch = testing::makeSquare(8);
+  FaceMesh mesh = gridMesh(patch, 8);
+  // The diagonal of two quads beside each other is turned: four irregular vertices in the middle.
+  const Element a = mesh.elements[3 * 8 + 3];
+  const Element b = mesh.elements[3 * 8 + 4];
+  mesh.elements[3 * 8 + 3] = {a[0], a[1], b[1], b[2]};
+  mesh.elements[3 * 8 + 4] = {a[0], b[2], a[2], a[3]};
+  const CleanupResult result = clean(mesh, patch);
+  EXPECT_EQ(result.mesh.elements.size(), 64U);
+  EXPECT_GT(result.worstShape, 0.95);
+}
+
+TEST(Subdivide, CutsQuadrilateralsInFourAndTrianglesInThree) {
+  const Patch patch = testing::makeSquare(4);
+  FaceMesh mesh = gridMesh(patch, 4);
+  const Element quad = mesh.elements[5];
+  mesh.elements[5] = {quad[0], quad[1], quad[2], kNone};
+  mesh.elements.push_back({quad[0], quad[2], quad[3], kNone});
+  IdMap<HalfedgeId, Vec3> middle(patch.surface.halfedgeCount());
+  std::size_t boundary = 0;
+  for (const HalfedgeId h : IdRange<HalfedgeId>(patch.surface.halfedgeCount())) {
+    if (!patch.surface.isBoundary(h)) continue;
+    ++boundary;
+    middle[h] = (patch.surface.position(patch.surface.origin(h)) + patch.surface.position(patch.surface.target(h))) * 0.5;
+  }
+  const SubdividedFace cut = subdivide(mesh, patch, treeOf(patch), middle);
+  ASSERT_EQ(cut.mesh.elements.size(), 15U * 4U + 2U * 3U);
+  for (const Element& element : cut.mesh.elements) EXPECT_EQ(cornerCount(element), 4U);
+  // Euler: vertices - edges + elements = 1, and every edge has been halved.
+  EXPECT_EQ(cut.mesh.positions.size(), 25U + 41U + 17U);
+  EXPECT_EQ(static_cast<std::size_t>(std::count_if(cut.boundaryEdge.begin(), cut.boundaryEdge.end(),
+                                                   [](HalfedgeId h) { return h.valid(); })),
+            boundary);
+  double area = 0.0;
+  for (const Element& e : cut.mesh.elements) {
+    const auto p = [&](std::size_t i) { return cut.mesh.positions[static_cast<std::size_t>(e[i])]; };
+    const double own = 0.5 * cross(p(2) - p(0), p(3) - p(1)).z;
+    EXPECT_GT(own, 0.0);
+    area += own;
+  }
+  EXPECT_NEAR(area, 1.0, 1e-12);
 }
 
 TEST(CleanUp, WithoutTopologyKeepsTheConnectivity) {

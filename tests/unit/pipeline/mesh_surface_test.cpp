@@ -2,8 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <functional>
 
+#include "qmcf/base/math.hpp"
 #include "topology/shapes.hpp"
 
 namespace qmcf {
@@ -75,6 +78,80 @@ TEST(MeshSurface, MeshesClosedSmoothAndNonManifoldParts) {
 TEST(MeshSurface, KeepsEveryCornerOfAPrism) {
   const std::vector<Vec2> l{{0, 0}, {3, 0}, {3, 1}, {1, 1}, {1, 3}, {0, 3}};
   expectGood(mesh(shapes::prism(l, {0.5, 0.5}), 1000));
+}
+
+MeshResult allQuad(const TriangleMesh& part, std::int64_t quads) {
+  SilentProgress silent;
+  MeshOptions options;
+  options.quads = quads;
+  options.allQuad = true;
+  auto result = meshSurface(part, options, silent);
+  EXPECT_TRUE(result.ok());
+  return std::move(result).value();
+}
+
+TEST(MeshSurface, MakesQuadrilateralsOnlyWhenAsked) {
+  const std::vector<Vec2> l{{0, 0}, {3, 0}, {3, 1}, {1, 1}, {1, 3}, {0, 3}};
+  TriangleMesh triangle;
+  triangle.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  triangle.triangles = {{0, 1, 2}};
+  const TriangleMesh tee = shapes::join(
+      shapes::moved(shapes::square(4), [](const Vec3& p) { return Vec3{p.x - 0.5, p.y, 0.0}; }),
+      shapes::moved(shapes::square(4), [](const Vec3& p) { return Vec3{0.0, p.x, p.y}; }));
+  for (const TriangleMesh& part : {shapes::prism(l, {0.5, 0.5}), shapes::cylinder(32, 2, 2.0),
+                                   shapes::torus(60, 24, 3.0, 1.0), tee, triangle}) {
+    for (const std::int64_t quads : {40, 900}) {
+      const MeshResult result = allQuad(part, quads);
+      expectGood(result);
+      EXPECT_EQ(result.quality.triangles, 0);
+      const auto made = static_cast<double>(result.quality.quads);
+      if (quads == 900) {
+        EXPECT_NEAR(made, 900.0, 250.0) << part.positions.size();
+      }
+      std::int64_t reported = 0;
+      for (const FaceReport& face : result.faces) reported += face.quads;
+      EXPECT_EQ(reported, result.quality.quads);
+    }
+  }
+}
+
+/// A square plate with a smooth spike thinner than an element.
+TriangleMesh spikedPlate() {
+  return shapes::moved(shapes::square(200), [](const Vec3& p) {
+    const double r = std::min(1.0, distance(p, {0.47, 0.53, 0.0}) / 0.1);
+    return Vec3{p.x, p.y, 0.15 * (1.0 + math::cos(math::kPi * r))};
+  });
+}
+
+TEST(MeshSurface, PutsSmallerElementsWhereLargeOnesCanNotFollow) {
+  const MeshResult result = mesh(spikedPlate(), 100);
+  EXPECT_TRUE(result.quality.valid);
+  EXPECT_GT(result.refinedPlaces, 0);
+  ASSERT_TRUE(result.quality.largestGap.has_value());
+  EXPECT_LT(*result.quality.largestGap, result.size);
+  EXPECT_EQ(mesh(shapes::cubeSoup(1), 600).refinedPlaces, 0);
+}
+
+TEST(MeshSurface, MeshesOneOfTwoLayersThatElementsCanNotTellApart) {
+  // A plate of three by three cells with a second layer over the middle one, hardly above it.
+  TriangleMesh plate = shapes::square(3);
+  const auto vertexAt = [&plate](double x, double y) {
+    for (std::size_t v = 0; v < plate.positions.size(); ++v) {
+      if (distance(plate.positions[v], {x, y, 0.0}) < 1e-9) return static_cast<std::int32_t>(v);
+    }
+    return kNone;
+  };
+  const auto top = static_cast<std::int32_t>(plate.positions.size());
+  plate.positions.push_back({0.5, 0.5, 0.01});
+  const std::array<std::int32_t, 4> cell{vertexAt(1. / 3, 1. / 3), vertexAt(2. / 3, 1. / 3), vertexAt(2. / 3, 2. / 3),
+                                         vertexAt(1. / 3, 2. / 3)};
+  for (std::size_t i = 0; i < 4; ++i) plate.triangles.push_back({cell[i], cell[(i + 1) % 4], top});
+  const MeshResult result = mesh(plate, 100);
+  expectGood(result);
+  const auto omitted = std::count_if(result.faces.begin(), result.faces.end(),
+                                     [](const FaceReport& face) { return face.method == "omitted"; });
+  EXPECT_EQ(omitted, 1);
+  for (const FaceReport& face : result.faces) EXPECT_EQ(face.method == "omitted", !face.reason.empty());
 }
 
 TEST(MeshSurface, GivesTheSameBytesEachTime) {

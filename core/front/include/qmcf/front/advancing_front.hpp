@@ -14,6 +14,7 @@ namespace qmcf {
 struct FrontOptions {
   bool patterns = true;          ///< Start with stars of 3 and 5 quads at the singularities (section 4.2.1).
   double fieldWeight = 0.8;      ///< Weight of the cross field against the front's own bisector, in [0, 1] (D2).
+  double seedPlace = 0.0;        ///< Where a front starts that nothing else does, as a share of the triangles, in [0, 1).
   double snapRadius = 0.65;      ///< Existing front nodes this near, in element sizes, are used instead of a new point.
 };
 

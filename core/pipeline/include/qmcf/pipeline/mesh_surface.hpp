@@ -32,6 +32,7 @@ struct MeshOptions {
   std::optional<std::int64_t> quads;  ///< Number of elements to aim at, 1 to 10,000,000. Default 3000 if size is unset.
   double featureAngle = 30.0;         ///< Dihedral angle in degrees, (0, 180), from which an edge is sharp.
   Mode mode = Mode::qmcf;             ///< The advancing front.
+  bool allQuad = false;               ///< No triangles: a mesh of twice the size with every element cut at its edges' middles.
   bool repair = true;                 ///< false: defects of the input are reported and left as they are.
   double gradation = 0.2;             ///< Largest slope of the size field, (0, 1].
   bool alignBoundary = true;          ///< Field constraint: boundary edges.
