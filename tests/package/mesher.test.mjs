@@ -194,6 +194,9 @@ const wrongOptions = [
   { size: 1, quads: 100 },
   { featureAngle: 200 },
   { alignSharp: 1 },
+  { strokes: [[0, 0, 0]] },
+  { strokes: [{ from: [0, 0], to: [1, 0, 0] }] },
+  { strokes: [{ from: [1, 0, 0], to: [1, 0, 0] }] },
   { sizes: 1 },
 ];
 for (const options of wrongOptions) {
