@@ -1,4 +1,5 @@
-// Units and place must not matter: the same part, smaller, larger or elsewhere, gets the same mesh. QMCF is the program.
+// Units, place and tessellation must not matter: the same part, smaller, larger, elsewhere or made of other triangles,
+// gets the same mesh or one as good. QMCF is the program.
 import assert from 'node:assert/strict';
 import { spawnSync } from 'node:child_process';
 import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
@@ -74,3 +75,34 @@ for (const file of ['plate_with_holes.stl', 'bracket_with_fillets.stl']) {
     });
   }
 }
+
+/** A cylinder of radius 1 and height 3: its wall of rows x segments quadrilaterals cut in two, its ends of fans. */
+function cylinder(segments, rows) {
+  const at = (i, j) => {
+    const angle = (2 * Math.PI * (i % segments)) / segments;
+    return [Math.cos(angle), Math.sin(angle), (3 * j) / rows];
+  };
+  const triangles = [];
+  for (let i = 0; i < segments; ++i) {
+    for (let j = 0; j < rows; ++j) {
+      const [a, b, c, d] = [at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)];
+      triangles.push([a, b, c], [a, c, d]);
+    }
+    triangles.push([at(i + 1, 0), at(i, 0), [0, 0, 0]], [at(i, rows), at(i + 1, rows), [0, 0, 3]]);
+  }
+  return triangles;
+}
+
+test('a cylinder of needles meshes as well as one of small triangles', () => {
+  const needles = mesh(cylinder(96, 1), (p) => p).report;
+  const fine = mesh(cylinder(96, 46), (p) => p).report;
+  for (const report of [needles, fine]) {
+    assert.ok(report.quality.valid);
+    assert.equal(report.faces.length, 3);
+    assert.ok(report.quality.scaledJacobian.mean > 0.97);
+  }
+  assert.equal(needles.fieldSingularities, fine.fieldSingularities);
+  assert.ok(Math.abs(needles.quality.quads / fine.quality.quads - 1) < 0.03);
+  assert.ok(Math.abs(needles.quality.scaledJacobian.mean - fine.quality.scaledJacobian.mean) < 0.01);
+  assert.ok(Math.abs(needles.quality.regularShare - fine.quality.regularShare) < 0.02);
+});
