@@ -138,11 +138,42 @@ std::optional<Error> assign(Mode& option, std::string_view name, const val& give
   return std::nullopt;
 }
 
+bool assign(Vec3& point, const val& given) {
+  if (!given.isArray() || lengthOf(given) != 3) {
+    return false;
+  }
+  const std::array<double*, 3> coordinates = {&point.x, &point.y, &point.z};
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (!isNumber(given[i])) {
+      return false;
+    }
+    *coordinates[i] = given[i].as<double>();
+  }
+  return true;
+}
+
+std::optional<Error> assign(std::vector<FieldStroke>& option, std::string_view name, const val& given) {
+  const Error wrong = wrongOption(name, "an array of {from: [x, y, z], to: [x, y, z]}");
+  if (!given.isArray()) {
+    return wrong;
+  }
+  option.clear();
+  for (std::size_t i = 0; i < lengthOf(given); ++i) {
+    const val stroke = given[i];
+    const bool isObject = stroke.typeOf().as<std::string>() == "object" && !stroke.isNull();
+    FieldStroke& next = option.emplace_back();
+    if (!isObject || !assign(next.from, stroke["from"]) || !assign(next.to, stroke["to"])) {
+      return wrong;
+    }
+  }
+  return std::nullopt;
+}
+
 /// Calls visit(name, field) for every option. The structured binding fails to compile when MeshOptions gains a field.
 template <class Visit>
 void forEachOption(MeshOptions& options, Visit visit) {
-  auto& [size,      quads,         featureAngle, mode,             allQuad,       repair,
-         gradation, alignBoundary, alignSharp,   alignNonManifold, alignCurvature] = options;
+  auto& [size,      quads,         featureAngle, mode,             allQuad,        repair,
+         gradation, alignBoundary, alignSharp,   alignNonManifold, alignCurvature, strokes] = options;
   visit("size", size);
   visit("quads", quads);
   visit("featureAngle", featureAngle);
@@ -154,6 +185,7 @@ void forEachOption(MeshOptions& options, Visit visit) {
   visit("alignSharp", alignSharp);
   visit("alignNonManifold", alignNonManifold);
   visit("alignCurvature", alignCurvature);
+  visit("strokes", strokes);
 }
 
 /// The error for a key that is no option's name, if there is one.

@@ -219,6 +219,33 @@ test('field writes constraints, magnitudes and the places of singularities', () 
   });
 });
 
+test('strokes turn the field', () => {
+  put('sheet.obj', 'v 0 0 0\nv 10 0 0\nv 10 10 0\nv 0 10 0\nf 1 2 3 4\n');
+  put('strokes.json', '{"strokes": [{"from": [4, 4, 0], "to": [6, 6, 0]}]}');
+  const run = qmcf('field', 'sheet.obj', '-o', 'strokes.vtu', '--size', '0.5', '--constraints', 'strokes.json');
+  assert.equal(run.status, 0, run.stderr);
+  const array = (name) => new RegExp(`Name="${name}"[^>]*>([^<]*)<`).exec(get('strokes.vtu'))[1].trim().split(/\s+/).map(Number);
+  const [constrained, directions] = [array('constrained'), array('direction')];
+  const drawn = constrained.flatMap((pin, v) => (pin === 5 ? [v] : []));
+  assert.ok(drawn.length >= 3);
+  for (const v of drawn) assert.ok(Math.abs(Math.abs(directions[3 * v]) - Math.SQRT1_2) < 1e-9);
+});
+
+test('files that hold no strokes are refused', () => {
+  put('sheet.obj', 'v 0 0 0\nv 10 0 0\nv 10 10 0\nv 0 10 0\nf 1 2 3 4\n');
+  const wrong = [
+    '{', '[]', '{"lines": []}', '{"strokes": 1}', '{"strokes": [{"from": [0, 0], "to": [1, 1, 1]}]}',
+    '{"strokes": [{"from": [1, 1, 1], "to": [1, 1, 1]}]}',
+  ];
+  for (const content of wrong) {
+    put('strokes.json', content);
+    const run = qmcf('mesh', 'sheet.obj', '-o', 'never.obj', '--constraints', 'strokes.json');
+    assert.equal(run.status, 2, `${content}: ${run.stderr}`);
+    assert.match(run.stderr, /strokes/);
+  }
+  assert.equal(qmcf('mesh', 'sheet.obj', '-o', 'never.obj', '--constraints', 'missing.json').status, 3);
+});
+
 test('the output replaces an old file only when it is complete', () => {
   put('cube.obj', cube());
   put('old.obj', 'the old content');

@@ -74,6 +74,22 @@ test('non-manifold edges and open boundaries are told apart', async ({ page }) =
   expect(await app.legend('Open boundary')).toBeGreaterThan(5);
 });
 
+test('a mesh can be made and saved where nothing can be drawn', async ({ page }) => {
+  await page.addInitScript(() => {
+    HTMLCanvasElement.prototype.getContext = () => null;
+  });
+  await page.goto('./');
+  const app = new App(page);
+  await expect(app.alert).toContainText('This browser can not draw in three dimensions');
+  await app.openSample('cylinder.obj');
+  await app.mesh(300);
+  await page.getByRole('button', { name: 'Worst element' }).click();
+  await expect(page.getByRole('group', { name: 'Chosen' })).toContainText(/Element \d+/);
+  const saved = page.waitForEvent('download');
+  await app.download.click();
+  expect((await saved).suggestedFilename()).toBe('cylinder-quads.obj');
+});
+
 test('a file can be dropped on the page', async ({ page }) => {
   await page.goto('./');
   const app = new App(page);

@@ -25,6 +25,18 @@ test.describe('on a phone', () => {
     // The part is seen above the sheet.
     const sheet = await page.getByRole('complementary').boundingBox();
     expect(sheet!.y).toBeGreaterThan(450);
+
+    // A tap on it tells what is there, above the sheet; the worst element is found from the sheet.
+    const card = page.getByRole('region', { name: 'Selection' });
+    await page.touchscreen.tap(195, (66 + sheet!.y) / 2);
+    await expect(card).toContainText(/Element \d+/);
+    await expect(card).toBeInViewport({ ratio: 1 });
+    const below = (await card.boundingBox())!;
+    expect(below.y + below.height).toBeLessThanOrEqual(sheet!.y);
+    await page.getByRole('button', { name: 'Show all settings' }).tap();
+    await page.getByRole('button', { name: 'Worst element' }).tap();
+    await expect(page.getByRole('button', { name: 'Show all settings' })).toHaveAttribute('aria-expanded', 'false');
+    await expect(card).toBeInViewport({ ratio: 1 });
   });
 });
 

@@ -23,18 +23,22 @@ function parseObj(source) {
   };
 }
 
+async function expectNativeBytes(file, mode) {
+  const output = inProject(`${file}.native.obj`);
+  const run = native('mesh', `${root}/samples/${file}`, '-o', output, '--quads', '800', '--mode', mode, '--quiet');
+  assert.equal(run.status, 0, run.stderr);
+  const mesh = await mesher.mesh(sample(file), { quads: 800, mode });
+  assert.equal(mesh.report.quality.valid, true);
+  assert.equal(mesh.elements.length, 4 * (mesh.report.quality.quads + mesh.report.quality.triangles));
+  const ours = Buffer.from(await mesh.file('obj'));
+  assert.ok(ours.length > 1000);
+  assert.ok(ours.equals(readFileSync(output)), 'the files differ');
+}
+
 for (const { file } of JSON.parse(readFileSync(`${root}/samples/index.json`, 'utf8'))) {
-  test(`${file}: the same bytes as from the native program`, async () => {
-    const output = inProject(`${file}.native.obj`);
-    const run = native('mesh', `${root}/samples/${file}`, '-o', output, '--quads', '800', '--quiet');
-    assert.equal(run.status, 0, run.stderr);
-    const mesh = await mesher.mesh(sample(file), { quads: 800 });
-    assert.equal(mesh.report.quality.valid, true);
-    assert.equal(mesh.elements.length, 4 * (mesh.report.quality.quads + mesh.report.quality.triangles));
-    const ours = Buffer.from(await mesh.file('obj'));
-    assert.ok(ours.length > 1000);
-    assert.ok(ours.equals(readFileSync(output)), 'the files differ');
-  });
+  for (const mode of ['qmcf', 'qmorph']) {
+    test(`${file}, ${mode}: the same bytes as from the native program`, () => expectNativeBytes(file, mode));
+  }
 }
 
 test('buffers give the same mesh as the file they come from', async () => {
@@ -194,6 +198,9 @@ const wrongOptions = [
   { size: 1, quads: 100 },
   { featureAngle: 200 },
   { alignSharp: 1 },
+  { strokes: [[0, 0, 0]] },
+  { strokes: [{ from: [0, 0], to: [1, 0, 0] }] },
+  { strokes: [{ from: [1, 0, 0], to: [1, 0, 0] }] },
   { sizes: 1 },
 ];
 for (const options of wrongOptions) {

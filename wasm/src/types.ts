@@ -14,6 +14,12 @@ export type ModelInput = ArrayBuffer | Uint8Array | TriangleBuffers;
 /** Which advancing front makes the quads: by cross field and size field, or the original Q-Morph. */
 export type Mode = 'qmcf' | 'qmorph';
 
+/** A line between two different points [x, y, z]. */
+export interface Stroke {
+  readonly from: readonly [number, number, number];
+  readonly to: readonly [number, number, number];
+}
+
 /** All options of a run; the names are those of the C++ struct. The core checks the values. */
 export interface MeshOptions {
   /** Element edge length in units of the model, greater than 0. Excludes {@link MeshOptions.quads}. */
@@ -38,6 +44,11 @@ export interface MeshOptions {
   alignNonManifold?: boolean | undefined;
   /** Field constraint: principal curvature. Default true. */
   alignCurvature?: boolean | undefined;
+  /**
+   * Field constraint: lines that the field shall follow, a short one to give the direction at a point. They hold at the
+   * vertices within half an element; edges come first, and where lines contradict each other, the nearer one. Default none.
+   */
+  strokes?: readonly Stroke[] | undefined;
 }
 
 /** The names of all options, for interfaces that are made from them. */
@@ -53,6 +64,7 @@ export const meshOptionNames = [
   'alignSharp',
   'alignNonManifold',
   'alignCurvature',
+  'strokes',
 ] as const satisfies readonly (keyof MeshOptions)[];
 
 /** Where a run is. */

@@ -11,7 +11,8 @@ namespace qmcf::cli {
 struct MeshCommand {
   std::string input;
   std::string output;
-  std::string report;  ///< Empty: none.
+  std::string report;       ///< Empty: none.
+  std::string constraints;  ///< File of strokes; empty: none.
   MeshOptions options;
   bool quiet = false;
 };
@@ -21,6 +22,7 @@ int run(const MeshCommand& command);
 struct FieldCommand {
   std::string input;
   std::string output;
+  std::string constraints;  ///< File of strokes; empty: none.
   MeshOptions options;
   bool quiet = false;
 };

@@ -5,6 +5,7 @@
 
 #include "commands.hpp"
 #include "console.hpp"
+#include "constraints_file.hpp"
 #include "exit_status.hpp"
 
 namespace qmcf::cli {
@@ -27,7 +28,7 @@ void addPartOptions(CLI::App& app, MeshOptions& options) {
       "--no-repair", [&options] { options.repair = false; }, "Report the model's defects and leave them as they are");
 }
 
-void addFieldOptions(CLI::App& app, MeshOptions& options) {
+void addFieldOptions(CLI::App& app, MeshOptions& options, std::string& constraints) {
   auto* const size = app.add_option("--size", options.size, "Edge length of the elements, in units of the model");
   app.add_option("--quads", options.quads, "Number of elements to aim at (3000 unless --size is given)")
       ->excludes(size);
@@ -37,6 +38,7 @@ void addFieldOptions(CLI::App& app, MeshOptions& options) {
   addAlignFlag(app, "sharp", options.alignSharp, "sharp edges");
   addAlignFlag(app, "non-manifold", options.alignNonManifold, "non-manifold edges");
   addAlignFlag(app, "curvature", options.alignCurvature, "principal curvature");
+  app.add_option("--constraints", constraints, "Lines that the field shall follow")->type_name("FILE.json");
 }
 
 void addMesh(CLI::App& app, MeshCommand& command) {
@@ -44,7 +46,7 @@ void addMesh(CLI::App& app, MeshCommand& command) {
   app.add_option("-o,--output", command.output, "Mesh: .obj .ply .stl .vtu .msh .inp .bdf")
       ->type_name("OUT")
       ->required();
-  addFieldOptions(app, command.options);
+  addFieldOptions(app, command.options, command.constraints);
   const std::map<std::string, Mode> modes{{"qmcf", Mode::qmcf}, {"qmorph", Mode::qmorph}};
   app.add_option("--mode", command.options.mode, "Advancing front: qmcf (guided by the field) or qmorph (the original)")
       ->transform(CLI::CheckedTransformer(modes).description(""))
@@ -58,7 +60,7 @@ void addMesh(CLI::App& app, MeshCommand& command) {
 void addField(CLI::App& app, FieldCommand& command) {
   app.add_option("input", command.input, "Model: OBJ, STL or PLY")->type_name("IN")->required();
   app.add_option("-o,--output", command.output, "Field and singularities")->type_name("OUT.vtu")->required();
-  addFieldOptions(app, command.options);
+  addFieldOptions(app, command.options, command.constraints);
   app.add_flag("--quiet", command.quiet, "Print nothing but errors");
 }
 
@@ -77,6 +79,17 @@ void addInfo(CLI::App& app, InfoCommand& command) {
   app.add_option("input", command.input, "Model: OBJ, STL or PLY")->type_name("IN")->required();
   addPartOptions(app, command.options);
   app.add_flag("--json", command.json, "Print JSON");
+}
+
+/// Runs a command with the strokes of its file of constraints, if it has one.
+template <class Command>
+int runConstrained(Command& command) {
+  if (!command.constraints.empty()) {
+    Result<std::vector<FieldStroke>> strokes = readConstraints(command.constraints);
+    if (!strokes.ok()) return fail(strokes.error(), command.constraints);
+    command.options.strokes = std::move(strokes).value();
+  }
+  return run(command);
 }
 
 int runProgram(int argc, char** argv) {
@@ -102,8 +115,8 @@ int runProgram(int argc, char** argv) {
     return app.exit(error) == 0 ? kDone : kWrongUsage;
   }
   catchInterrupts();
-  if (meshApp->parsed()) return run(mesh);
-  if (fieldApp->parsed()) return run(field);
+  if (meshApp->parsed()) return runConstrained(mesh);
+  if (fieldApp->parsed()) return runConstrained(field);
   if (checkApp->parsed()) return run(check);
   return run(info);
 }

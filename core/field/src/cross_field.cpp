@@ -15,8 +15,6 @@
 namespace qmcf {
 namespace {
 
-constexpr int kRemovalRounds = 5;
-
 FieldMatrices assemble(const Patch& patch, const Connection& connection, const FieldOptions& options) {
   if (options.energy == FieldEnergy::cotangent) return assembleCotangent(patch, connection);
   return assembleFiniteElements(patch, connection, options.smoothness);
@@ -72,7 +70,7 @@ std::vector<std::uint8_t> pinnedVertices(const FieldConditions& conditions) {
 }
 
 /// Solves, and where pins to curvature turn out to contradict what is around them, takes these back and solves again
-/// (section 3.2.3).
+/// (section 3.2.3), until none does: every round frees at least one.
 Result<SolvedField> solveConsistently(const Patch& patch, const Connection& connection, const FieldMatrices& matrices,
                                       const CurvatureField* curvature, const FieldOptions& options,
                                       FieldConditions& conditions, Progress& progress) {
@@ -80,7 +78,7 @@ Result<SolvedField> solveConsistently(const Patch& patch, const Connection& conn
   if (removes) {
     removeInconsistentPins(patch, connection, conditions.value, pinnedVertices(conditions), conditions);
   }
-  for (int round = 0;; ++round) {
+  for (;;) {
     if (curvature != nullptr) pullToCurvature(patch, *curvature, options, conditions);
     Result<SolvedField> solved = solveField(matrices, conditions, options, progress);
     if (!solved) return solved;
@@ -91,9 +89,7 @@ Result<SolvedField> solveConsistently(const Patch& patch, const Connection& conn
       if (!cancelled) return cancelled.error();
     }
     const std::vector<std::uint8_t> all(patch.surface.vertexCount(), 1);
-    if (!removes || round == kRemovalRounds || removeInconsistentPins(patch, connection, u, all, conditions) == 0) {
-      return solved;
-    }
+    if (!removes || removeInconsistentPins(patch, connection, u, all, conditions) == 0) return solved;
   }
 }
 

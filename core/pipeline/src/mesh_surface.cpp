@@ -182,6 +182,10 @@ std::optional<Error> validateOptions(const MeshOptions& options) {
   }
   if (!(options.gradation > 0.0 && options.gradation <= 1.0))
     return invalid("gradation must be above 0 and at most 1.");
+  for (const FieldStroke& stroke : options.strokes) {
+    const double length = norm(stroke.to - stroke.from);  // NaN or infinite if any coordinate is.
+    if (!(length > 0.0 && std::isfinite(length))) return invalid("Each of the strokes must join two different points.");
+  }
   return std::nullopt;
 }
 

@@ -23,6 +23,7 @@ FieldOptions fieldOptions(const MeshOptions& options) {
   field.sharp = options.alignSharp;
   field.nonManifold = options.alignNonManifold;
   field.curvature = options.alignCurvature;
+  field.strokes = options.strokes;
   return field;
 }
 

@@ -46,21 +46,25 @@ Result<double> baseSize(const Brep& brep, const SizingOptions& options) {
 }
 
 /// Finds the base size for a count by secants: the count falls like a power of the size, with an exponent near 2 where
-/// the size rules and a smaller one where curvature and gaps do.
+/// the size rules and a smaller one where curvature and gaps do. Sizes are taken relative to the first, so that a part
+/// scaled by a power of two gets exactly the scaled size.
 class CountSearch {
  public:
+  explicit CountSearch(double first) : first_(first) {}
+
   /// The size to try next, given that `size` led to `ratio` times the wanted count.
   double next(double size, double ratio) {
-    const double x = math::log(size);
+    const double x = math::log(size / first_);
     const double y = math::log(ratio);
     if (tried_ && x != x_) exponent_ = std::clamp((y_ - y) / (x - x_), 0.4, 2.5);
     tried_ = true;
     x_ = x;
     y_ = y;
-    return math::exp(x + y / exponent_);
+    return first_ * math::exp(x + y / exponent_);
   }
 
  private:
+  double first_;
   double exponent_ = 2.0;
   bool tried_ = false;
   double x_ = 0.0;
@@ -162,7 +166,7 @@ Result<SizeField> computeSizeField(const TriangleMesh& mesh, const Brep& brep, c
   field.base = base.value();
   field.gradation = options.gradation;
   field.limits = options.limits;
-  CountSearch search;
+  CountSearch search(field.base);
   const auto wanted = static_cast<double>(options.quads.value_or(kDefaultQuads));
   for (int attempt = 0; attempt < kAttempts; ++attempt) {
     if (!progress.report(Stage::sizing, 0.6 + 0.05 * attempt)) return cancelledError();

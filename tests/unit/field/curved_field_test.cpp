@@ -137,6 +137,11 @@ TEST(CurvedField, IsTidiedByTakingBackInconsistentPins) {
   EXPECT_GT(cluttered.singularities.size(), 40U);
   EXPECT_LT(tidy.singularities.size(), cluttered.singularities.size() / 2);
   EXPECT_LT(tidy.energy, 0.5 * cluttered.energy);
+  // No singularity touches what is still pinned.
+  EXPECT_GT(std::count(tidy.constrained.raw().begin(), tidy.constrained.raw().end(), FieldPin::curvature), 0);
+  for (const Singularity& s : tidy.singularities) {
+    for (const VertexId v : patch.surface.corners(s.point.triangle)) EXPECT_EQ(tidy.constrained[v], FieldPin::none);
+  }
 }
 
 TEST(CurvedField, TakesBackCurvaturePinsThatContradictEachOther) {

@@ -136,6 +136,20 @@ TEST(QMorph, StaysOnCurvedAndClosedSurfaces) {
   }
 }
 
+TEST(QMorph, PutsNodesOnThePartAndNotOnItsTriangulation) {
+  // The part is a finer sphere than the patch; both have the patch's vertices.
+  const Patch patch = testing::makeSphere(8);
+  const TriangleBvh part = treeOf(testing::makeSphere(32).surface);
+  SilentProgress silent;
+  const auto result = advanceMorph(patch, part, MorphOptions{}, silent);
+  ASSERT_TRUE(result.ok());
+  expectValid(result.value().mesh, patch);
+  for (const Vec3& p : result.value().mesh.positions) {
+    EXPECT_LT(part.closest(p).squaredDistance, 1e-20);
+    EXPECT_NEAR(norm(p), 1.0, 2e-3);  // facets of the patch are about 1e-2 inside
+  }
+}
+
 TEST(QMorph, PassesFromLongEdgesToShortOnes) {
   // The edges of the round hole are half as long as those of the hexagon, so rows that meet differ in length.
   const Patch patch = testing::makePolygonRing(6, 10, 8, true);

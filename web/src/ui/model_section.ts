@@ -14,7 +14,7 @@ export function modelSection(store: Store, openControl: HTMLElement): HTMLElemen
   const gallery = button(icons.gallery(), { class: 'quiet icon-text' }, () => store.update({ galleryOpen: true }));
   gallery.append('Samples');
   const row = el('div', { class: 'row' }, gallery);
-  const section = el('section', { class: 'model', 'aria-label': 'Model' }, name, facts, repairs, row, lookUp(store));
+  const section = el('section', { class: 'model', 'aria-label': 'Model' }, name, facts, row, lookUp(store), repairs);
   store.subscribe((state, before) => {
     if (!state.galleryOpen && openControl.parentElement !== row) {
       row.prepend(openControl);
@@ -76,7 +76,7 @@ export function repairReport(items: readonly RepairItem[]): HTMLElement[] {
 
 /** The first ids in the file, to look for them there. */
 function idList(elements: readonly number[], count: number): HTMLElement[] {
-  const shown = elements.slice(0, 6);
+  const shown = elements.slice(0, 4);
   const text = `ids ${shown.join(', ')}${shown.length < Math.max(count, elements.length) ? ' …' : ''}`;
   return shown.length > 0 ? [el('small', { class: 'ids' }, text)] : [];
 }

@@ -39,6 +39,7 @@ struct MeshOptions {
   bool alignSharp = true;             ///< Field constraint: sharp edges.
   bool alignNonManifold = true;       ///< Field constraint: non-manifold edges.
   bool alignCurvature = true;         ///< Field constraint: principal curvature.
+  std::vector<FieldStroke> strokes;   ///< Field constraint: lines to follow (FieldOptions::strokes); finite, not points.
 };
 
 /// How one face was meshed.
