@@ -65,6 +65,24 @@ test('the feature angle decides which edges there are', async ({ page }) => {
   await expect(page.getByRole('list', { name: 'Legend' })).toBeHidden();
 });
 
+test('the less the size may grow, the more elements there are', async ({ page }) => {
+  await page.goto('./');
+  const app = new App(page);
+  await app.openSample('varying.stl');
+  await page.getByText('Features and directions').click();
+  const result = page.getByRole('region', { name: 'Result' });
+  const counts: number[] = [];
+  for (const gradation of ['0.05', '0.2', '1']) {
+    await page.getByLabel('Gradation').fill(gradation);
+    await app.size.fill('8');
+    await app.generate.click();
+    await expect(app.status).toHaveText(/ quads? .*in .* s\.$/);
+    counts.push(Number((await result.locator('.headline dd').first().innerText()).replaceAll(',', '')));
+  }
+  expect(counts[0]).toBeGreaterThan(counts[1]!);
+  expect(counts[1]).toBeGreaterThan(counts[2]!);
+});
+
 test('non-manifold edges and open boundaries are told apart', async ({ page }) => {
   await page.goto('./');
   const app = new App(page);

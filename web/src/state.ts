@@ -22,6 +22,7 @@ export interface Settings {
   readonly quads: number;
   readonly featureAngle: number;
   readonly mode: Mode;
+  readonly gradation: number;
   readonly alignBoundary: boolean;
   readonly alignSharp: boolean;
   readonly alignNonManifold: boolean;
@@ -101,6 +102,7 @@ export const initialState: State = {
     quads: 3000,
     featureAngle: 30,
     mode: 'qmcf',
+    gradation: 0.2,
     alignBoundary: true,
     alignSharp: true,
     alignNonManifold: true,

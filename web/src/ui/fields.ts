@@ -16,11 +16,13 @@ interface NumberFieldSettings {
   readonly step?: string;
   /** The limits themselves are excluded. */
   readonly open?: boolean;
+  /** More about it, for a pointer that stays on it. */
+  readonly hint?: string;
   readonly onChange: (value: number) => void;
 }
 
 export function numberField(settings: NumberFieldSettings): NumberField {
-  const { label, unit, min, max, step = 'any', open = false, onChange } = settings;
+  const { label, unit, min, max, step = 'any', open = false, hint, onChange } = settings;
   const id = uniqueId();
   const input = el('input', { id, type: 'number', inputmode: 'decimal', step, min, max });
   const isValid = (value: number) => Number.isFinite(value) && (open ? value > min && value < max : value >= min && value <= max);
@@ -33,7 +35,7 @@ export function numberField(settings: NumberFieldSettings): NumberField {
   });
   const box = el('div', { class: 'number' }, input, ...(unit ? [el('span', { class: 'unit', 'aria-hidden': 'true' }, unit)] : []));
   return {
-    element: el('div', { class: 'field' }, el('label', { for: id }, label), box),
+    element: el('div', { class: 'field', title: hint }, el('label', { for: id }, label), box),
     input,
     set(text) {
       if (document.activeElement !== input) {

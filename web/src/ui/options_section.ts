@@ -28,6 +28,13 @@ export function optionsSection(store: Store, session: Session): HTMLElement {
     open: true,
     onChange: (featureAngle) => session.changeSettings({ featureAngle }),
   });
+  const gradation = numberField({
+    label: 'Gradation',
+    min: 0.01,
+    max: 1,
+    hint: 'How much the element size may grow along a length of one: the less, the smoother and the more elements.',
+    onChange: (value) => session.changeSettings({ gradation: value }),
+  });
   const toggles = constraints.map(
     ([name, label, hint]) => [name, toggle(label, (on) => session.changeSettings({ [name]: on }), hint)] as const,
   );
@@ -36,6 +43,7 @@ export function optionsSection(store: Store, session: Session): HTMLElement {
   mode.addEventListener('change', () => session.changeSettings({ mode: mode.value as Mode }));
   store.subscribe(({ settings }) => {
     angle.set(String(settings.featureAngle));
+    gradation.set(String(settings.gradation));
     mode.value = settings.mode;
     for (const [name, { input }] of toggles) {
       input.checked = settings[name];
@@ -45,7 +53,7 @@ export function optionsSection(store: Store, session: Session): HTMLElement {
     'details',
     { class: 'options' },
     el('summary', {}, 'Features and directions'),
-    angle.element,
+    el('div', { class: 'pair' }, angle.element, gradation.element),
     el('div', { class: 'field' }, el('label', { for: id }, 'Advancing front'), mode),
     el(
       'fieldset',

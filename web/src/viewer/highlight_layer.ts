@@ -1,8 +1,10 @@
 import type { InspectResult, MeshResult } from 'qmcf';
-import { Box3, BufferAttribute, BufferGeometry, DoubleSide, Mesh, MeshBasicMaterial, Sphere, Vector3 } from 'three';
+import { Box3, BufferAttribute, BufferGeometry, DoubleSide, Group, Mesh, MeshBasicMaterial, Sphere, Vector3 } from 'three';
+import { LineMaterial } from 'three/addons/lines/LineMaterial.js';
+import { LineSegments2 } from 'three/addons/lines/LineSegments2.js';
+import { LineSegmentsGeometry } from 'three/addons/lines/LineSegmentsGeometry.js';
 import type { Target } from '../state.js';
-import { Layer } from './layer.js';
-import { drawNearer, gather, lineSegments } from './lines.js';
+import { drawNearer, gather } from './lines.js';
 import type { Palette } from './palette.js';
 
 /** What can be marked: the part, and the mesh where that is what is seen. Positions are those in the scene. */
@@ -19,34 +21,43 @@ export interface Outline {
   readonly segments: Float32Array;
 }
 
-/** Marks one face, edge or element. */
-export class HighlightLayer extends Layer {
+/** Marks one face, edge or element. What it is made of is kept: a new material would be compiled at every move. */
+export class HighlightLayer extends Group {
+  private readonly fill = new Mesh(
+    new BufferGeometry(),
+    new MeshBasicMaterial({ side: DoubleSide, transparent: true, opacity: 0.5, depthWrite: false }),
+  );
+  /** A dark border makes the bright line stand out from every colour below it. */
+  private readonly border = new LineSegments2(new LineSegmentsGeometry(), new LineMaterial({ linewidth: 8, depthWrite: false }));
+  private readonly line = new LineSegments2(new LineSegmentsGeometry(), new LineMaterial({ linewidth: 4.5 }));
+
+  constructor() {
+    super();
+    for (const lines of [this.border, this.line]) {
+      drawNearer(lines);
+    }
+    for (const [object, order] of [[this.fill, 1], [this.border, 4], [this.line, 5]] as const) {
+      object.renderOrder = order;
+      object.visible = false;
+      this.add(object);
+    }
+  }
+
   show(outline: Outline | undefined, palette: Palette): void {
-    this.clear();
-    if (!outline) {
-      return;
+    const triangles = outline?.triangles ?? new Float32Array();
+    const segments = outline?.segments ?? new Float32Array();
+    this.fill.visible = triangles.length > 0;
+    this.border.visible = this.line.visible = segments.length > 0;
+    this.fill.material.color = palette.highlight;
+    this.border.material.color = palette.sharp;
+    this.line.material.color = palette.highlight;
+    this.fill.geometry.dispose();
+    this.border.geometry.dispose();
+    if (this.fill.visible) {
+      this.fill.geometry = new BufferGeometry().setAttribute('position', new BufferAttribute(triangles, 3));
     }
-    if (outline.triangles.length > 0) {
-      const geometry = new BufferGeometry().setAttribute('position', new BufferAttribute(outline.triangles, 3));
-      const material = new MeshBasicMaterial({
-        color: palette.highlight,
-        side: DoubleSide,
-        transparent: true,
-        opacity: 0.5,
-        depthWrite: false,
-      });
-      const fill = new Mesh(geometry, material);
-      fill.renderOrder = 1;
-      this.add(fill);
-    }
-    if (outline.segments.length > 0) {
-      // A dark border makes the bright line stand out from every colour below it.
-      for (const [color, width, order] of [[palette.sharp, 8, 4], [palette.highlight, 4.5, 5]] as const) {
-        const lines = lineSegments(outline.segments, color, width);
-        drawNearer(lines);
-        lines.renderOrder = order;
-        this.add(lines);
-      }
+    if (this.line.visible) {
+      this.border.geometry = this.line.geometry = new LineSegmentsGeometry().setPositions(segments);
     }
   }
 }

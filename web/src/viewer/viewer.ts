@@ -52,6 +52,8 @@ export class Viewer {
 
   constructor(private readonly canvas: HTMLCanvasElement) {
     this.renderer = new WebGLRenderer({ canvas, antialias: true, alpha: true });
+    // Asking for the log of a shader waits until it is compiled and everything before it is drawn.
+    this.renderer.debug.checkShaderErrors = false;
     this.renderer.setPixelRatio(Math.min(2, window.devicePixelRatio));
     this.scene.add(this.partLayer, this.fieldLayer, this.meshLayer, this.highlight, this.camera, this.sky);
     this.addCameraLights();
