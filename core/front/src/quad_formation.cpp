@@ -19,6 +19,24 @@ double scaledCorner(const Vec3& before, const Vec3& at, const Vec3& after, const
   return lengths > 0.0 ? dot(cross(forward, backward), normal) / lengths : -1.0;
 }
 
+/// Whether triangles with that many boundary edges together have the Euler characteristic of a disc: a small loop may
+/// enclose a handle.
+bool isDisc(const EditMesh& mesh, const std::vector<FaceId>& region, std::size_t boundary) {
+  std::vector<VertexId> vertices;
+  std::size_t sides = 0;
+  for (const FaceId f : region) {
+    for (const HalfedgeId h : mesh.sides(f)) {
+      if (!h.valid()) continue;
+      ++sides;
+      vertices.push_back(mesh.origin(h));
+    }
+  }
+  std::sort(vertices.begin(), vertices.end());
+  const auto last = std::unique(vertices.begin(), vertices.end());
+  const auto count = static_cast<std::size_t>(last - vertices.begin());
+  return count + region.size() == (sides + boundary) / 2 + 1;
+}
+
 }  // namespace
 
 std::optional<std::vector<FaceId>> enclosedRegion(const FrontMesh& front, const std::vector<HalfedgeId>& boundary) {
@@ -40,7 +58,7 @@ std::optional<std::vector<FaceId>> enclosedRegion(const FrontMesh& front, const 
       h = mesh.next(h);
     } while (h != first);
   }
-  if (sidesSeen != boundary.size()) return std::nullopt;
+  if (sidesSeen != boundary.size() || !isDisc(mesh, region, boundary.size())) return std::nullopt;
   return region;
 }
 

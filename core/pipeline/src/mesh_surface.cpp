@@ -31,7 +31,7 @@ MeshOptions withField(MeshOptions options) {
 
 /// How often places where the mesh is not valid get smaller elements, and how small these may be in units of the base.
 constexpr int kMaxRefinements = 4;
-constexpr double kLowestSize = 0.15;
+constexpr double kLowestSize = 0.02;
 /// Two faces between the same edges that are nearer to each other than this, in units of the base, get one mesh.
 constexpr double kTellApart = 0.25;
 

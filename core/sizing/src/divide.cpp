@@ -1,6 +1,7 @@
 #include "qmcf/sizing/divide.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <iterator>
@@ -70,6 +71,30 @@ Plan planEdge(const TriangleMesh& mesh, const BrepEdge& edge, const SizeField& s
   }
   plan.count = std::max(plan.least, rounded);
   return plan;
+}
+
+/// Of edges between the same two vertices only one may stay undivided: they would be one edge of the mesh.
+void separateParallelEdges(std::vector<Plan>& plans, const Brep& brep) {
+  std::vector<std::array<std::int32_t, 3>> byEnds;  // Both ends, ascending, and the edge.
+  for (std::size_t e = 0; e < brep.edges.size(); ++e) {
+    const auto [first, last] = std::minmax(brep.edges[e].start, brep.edges[e].end);
+    if (first != last) byEnds.push_back({first, last, static_cast<std::int32_t>(e)});
+  }
+  std::sort(byEnds.begin(), byEnds.end());
+  for (std::size_t i = 0; i < byEnds.size();) {
+    std::size_t end = i + 1;
+    while (end < byEnds.size() && byEnds[end][0] == byEnds[i][0] && byEnds[end][1] == byEnds[i][1]) ++end;
+    const auto planOf = [&](std::size_t k) -> Plan& { return plans[static_cast<std::size_t>(byEnds[k][2])]; };
+    std::size_t shortest = i;
+    for (std::size_t k = i + 1; k < end; ++k) {
+      if (planOf(k).wanted() < planOf(shortest).wanted()) shortest = k;
+    }
+    for (; i < end; ++i) {
+      if (i == shortest) continue;
+      planOf(i).least = std::max(planOf(i).least, 2);
+      planOf(i).count = std::max(planOf(i).count, 2);
+    }
+  }
 }
 
 /// Gives all edges of a group one number of divisions.
@@ -275,6 +300,7 @@ DividedEdges divideEdges(const TriangleMesh& mesh, const Brep& brep, const SizeF
     plans.push_back(planEdge(mesh, brep.edges[e], size, e, minimum));
     wanted.push_back(std::max(plans.back().wanted(), static_cast<double>(plans.back().least)));
   }
+  separateParallelEdges(plans, brep);
   const auto groups = oppositeEdges(brep, wanted);
   settleGroups(plans, groups);
 
