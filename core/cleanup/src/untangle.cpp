@@ -13,10 +13,12 @@
 namespace qmcf {
 namespace {
 
-constexpr int kSweeps = 6;
-constexpr int kDirections = 8;
+constexpr int kSweeps = 12;
+/// From this sweep on the neighbours of the elements move too.
+constexpr int kWiderSweep = 3;
+constexpr int kDirections = 12;
 /// How far a vertex is moved, in element sizes.
-constexpr std::array<double, 4> kSteps{0.08, 0.2, 0.4, 0.7};
+constexpr std::array<double, 5> kSteps{0.08, 0.2, 0.4, 0.7, 1.1};
 /// Cosine of the angle to the surface and scaled Jacobian that are as good as any here.
 constexpr double kUpright = 0.15;
 constexpr double kSquare = 0.15;
@@ -103,21 +105,27 @@ bool moveToBest(EditMesh& mesh, const RelaxationTarget& target, VertexId v) {
 std::int64_t untangle(EditMesh& mesh, const RelaxationTarget& target) {
   std::int64_t found = 0;
   for (int sweep = 0; sweep < kSweeps; ++sweep) {
-    std::vector<VertexId> vertices;
+    std::vector<VertexId> vertices;  // Of elements that are turned over.
     for (std::size_t i = 0; i < mesh.faceCapacity(); ++i) {
       const FaceId f(i);
       if (mesh.kind(f) == FaceKind::removed || !standOf(mesh, target.face, f).turnedOver) continue;
       found += sweep == 0 ? 1 : 0;
       for (const HalfedgeId h : mesh.sides(f)) {
-        if (h.valid() && !mesh.isBoundary(mesh.origin(h))) vertices.push_back(mesh.origin(h));
+        if (!h.valid()) continue;
+        vertices.push_back(mesh.origin(h));
+        if (sweep < kWiderSweep) continue;
+        mesh.forEachOutgoing(mesh.origin(h), [&](HalfedgeId out) { vertices.push_back(mesh.target(out)); });
       }
     }
+    if (vertices.empty()) break;
     std::sort(vertices.begin(), vertices.end());
     vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
     bool helped = false;
-    for (const VertexId v : vertices) helped = moveToBest(mesh, target, v) || helped;
+    for (const VertexId v : vertices) {
+      if (!mesh.isBoundary(v)) helped = moveToBest(mesh, target, v) || helped;
+    }
     mesh.commit();
-    if (!helped) break;
+    if (!helped && sweep >= kWiderSweep) break;
   }
   return found;
 }

@@ -58,6 +58,70 @@ int agreement(const Brep& brep, std::int32_t face, std::int32_t twin) {
   return sum;
 }
 
+/// A face's use of an edge.
+struct Use {
+  std::int32_t face = kNone;
+  bool reversed = false;
+};
+
+/// Where two faces are left at an edge that had more, they may run along it in the same direction: faces that disagree
+/// along more of their edges than they agree are turned, as long as that helps.
+void turnToFit(const Brep& brep, CoveredFaces& covered) {
+  constexpr int kMostRounds = 16;
+  std::vector<std::vector<Use>> uses(brep.edges.size());
+  for (std::size_t f = 0; f < brep.faces.size(); ++f) {
+    if (covered.below[f] != kNone) continue;
+    for (const BrepLoop& loop : brep.faces[f].loops) {
+      for (const Coedge& coedge : loop.coedges) {
+        uses[static_cast<std::size_t>(coedge.edge)].push_back({static_cast<std::int32_t>(f), coedge.reversed});
+      }
+    }
+  }
+  const auto runs = [&covered](const Use& use) {
+    return use.reversed != (covered.turned[static_cast<std::size_t>(use.face)] != 0);
+  };
+  bool changed = true;
+  for (int round = 0; changed && round < kMostRounds; ++round) {
+    changed = false;
+    std::vector<double> agreement(brep.faces.size(), 0.0);
+    for (std::size_t e = 0; e < uses.size(); ++e) {
+      if (uses[e].size() != 2 || uses[e][0].face == uses[e][1].face) continue;
+      const bool agree = runs(uses[e][0]) != runs(uses[e][1]);
+      for (const Use& use : uses[e]) {
+        agreement[static_cast<std::size_t>(use.face)] += agree ? brep.edges[e].length : -brep.edges[e].length;
+      }
+    }
+    for (std::size_t f = 0; f < brep.faces.size() && !changed; ++f) {
+      if (agreement[f] >= 0.0) continue;
+      covered.turned[f] ^= 1U;
+      changed = true;
+    }
+  }
+}
+
+/// How a face runs along an edge that it uses.
+bool runsBackwards(const BrepFace& face, std::int32_t edge) {
+  for (const BrepLoop& loop : face.loops) {
+    for (const Coedge& coedge : loop.coedges) {
+      if (coedge.edge == edge) return coedge.reversed;
+    }
+  }
+  return false;
+}
+
+/// Instead of a face that would have to be turned, the layer that faces the other way is meshed as it is.
+void preferUnturned(const Brep& brep, CoveredFaces& covered) {
+  for (std::size_t f = 0; f < covered.below.size(); ++f) {
+    const std::int32_t kept = covered.below[f];
+    if (kept == kNone || covered.turned[static_cast<std::size_t>(kept)] == 0) continue;
+    const std::int32_t edge = brep.faces[f].loops[0].coedges[0].edge;
+    if (runsBackwards(brep.faces[f], edge) == runsBackwards(brep.faces[static_cast<std::size_t>(kept)], edge)) continue;
+    covered.below[f] = kNone;
+    covered.below[static_cast<std::size_t>(kept)] = static_cast<std::int32_t>(f);
+    covered.turned[static_cast<std::size_t>(kept)] = 0;
+  }
+}
+
 }  // namespace
 
 CoveredFaces coveredFaces(const TriangleMesh& mesh, const Brep& brep, double distance) {
@@ -84,9 +148,10 @@ CoveredFaces coveredFaces(const TriangleMesh& mesh, const Brep& brep, double dis
       if (!isNear(mesh, first, second, distance) || !isNear(mesh, second, first, distance)) continue;
       if (agreement(brep, omitted, kept) > agreement(brep, kept, omitted)) std::swap(kept, omitted);
       below[static_cast<std::size_t>(omitted)] = kept;
-      covered.turned[static_cast<std::size_t>(kept)] = agreement(brep, kept, omitted) < 0 ? 1 : 0;
     }
   }
+  if (std::any_of(below.begin(), below.end(), [](std::int32_t lower) { return lower != kNone; })) turnToFit(brep, covered);
+  preferUnturned(brep, covered);
   return covered;
 }
 
