@@ -9,8 +9,8 @@ export const plainPage = 'http://localhost:4274/';
 export default defineConfig({
   testDir: 'tests/e2e',
   outputDir: 'build/e2e',
-  timeout: 180_000,
-  expect: { timeout: 60_000 },
+  timeout: 300_000,
+  expect: { timeout: 90_000 },
   workers: 1,
   reporter: [['list']],
   use: {

@@ -71,6 +71,7 @@ async function measure(options, part, mode, quads, out) {
 }
 
 const number = (x) => (x === undefined ? '-' : x.toFixed(3));
+const precise = (x) => (x === undefined ? '-' : x.toFixed(4));
 const HEADER = ['part', 'method', 'quads', 'triangles', 'JR corners', 'JR Gauss', 'aspect', 'orthogonal', ''];
 
 function measuredRow(part, method, result) {
@@ -95,10 +96,10 @@ function shortcomings(part, qmcf, qmorph) {
   return COLUMNS.flatMap((column, i) => {
     const missing = [];
     if (!better(i, qmcf.means[i], qmorph.means[i])) {
-      missing.push(`${part.name}: ${column} ${number(qmcf.means[i])} is not better than Q-Morph's ${number(qmorph.means[i])}`);
+      missing.push(`${part.name}: ${column} ${precise(qmcf.means[i])} is not better than Q-Morph's ${precise(qmorph.means[i])}`);
     }
     if (better(i, part.paper.qmcf[i], qmcf.means[i])) {
-      missing.push(`${part.name}: ${column} ${number(qmcf.means[i])} is worse than the paper's ${part.paper.qmcf[i]}`);
+      missing.push(`${part.name}: ${column} ${precise(qmcf.means[i])} is worse than the paper's ${part.paper.qmcf[i]}`);
     }
     return missing;
   });

@@ -147,7 +147,7 @@ void improve(MorphMesh& morph, VertexId v, const Vec3& aim) {
 
 std::vector<VertexId> smoothAround(MorphMesh& morph, const std::vector<VertexId>& nodes) {
   const EditMesh& mesh = morph.mesh();
-  const std::vector<VertexId> order = withNeighbours(mesh, nodes);
+  std::vector<VertexId> order = withNeighbours(mesh, nodes);
   for (const VertexId v : order) {
     if (morph.front().isFixed(v)) continue;
     const EditMesh::Vertex from = mesh.vertex(v);

@@ -91,7 +91,7 @@ std::vector<VertexId> transitionSeam(MorphMesh& morph, HalfedgeId h, double leas
     const HalfedgeId start = mesh.find(middle, edge.leaves ? edge.end : edge.behind);
     const bool joined = mesh.connected(middle, shortEnd) ||
                         (start.valid() && mesh.isOpen(start) && recoverEdge(morph.front(), start, shortEnd).valid());
-    const std::vector<VertexId> corners = oriented(edge, {middle, shortEnd, edge.apex, edge.behind});
+    std::vector<VertexId> corners = oriented(edge, {middle, shortEnd, edge.apex, edge.behind});
     if (joined && formElement(morph.front(), corners, least) && worstAt(mesh, {middle}) > 0.0) return corners;
   }
   mesh.rollback(mark);
