@@ -6,6 +6,7 @@ Pilkey, Peterson's Stress Concentration Factors, chart 4.1): (2 + (1 - d/W)^3) /
 
 import math
 import os
+import shutil
 import subprocess
 import tempfile
 import unittest
@@ -114,6 +115,7 @@ class PlateWithHole(unittest.TestCase):
         self.assertAlmostEqual(sum(force.values()), HALF_WIDTH * THICKNESS, places=9)
         return "".join(f"{node}, 1, {value!r}\n" for node, value in force.items())
 
+    @unittest.skipUnless(shutil.which("ccx"), "CalculiX is not installed; Debian 13 has no package of it")
     def test_stress_concentration(self):
         left = self.set_at(lambda p: abs(p[0]) < 1e-9)
         bottom = self.set_at(lambda p: abs(p[1]) < 1e-9)
