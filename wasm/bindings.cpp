@@ -172,8 +172,8 @@ std::optional<Error> assign(std::vector<FieldStroke>& option, std::string_view n
 /// Calls visit(name, field) for every option. The structured binding fails to compile when MeshOptions gains a field.
 template <class Visit>
 void forEachOption(MeshOptions& options, Visit visit) {
-  auto& [size,      quads,         featureAngle, mode,             allQuad,        repair,
-         gradation, alignBoundary, alignSharp,   alignNonManifold, alignCurvature, strokes] = options;
+  auto& [size, quads, featureAngle, mode, allQuad, repair, gradation, alignBoundary, alignSharp, alignNonManifold,
+         alignCurvature, strokes] = options;
   visit("size", size);
   visit("quads", quads);
   visit("featureAngle", featureAngle);

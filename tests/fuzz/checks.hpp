@@ -16,8 +16,9 @@ inline std::span<const std::byte> bytesOf(const std::uint8_t* data, std::size_t 
   return std::as_bytes(std::span<const std::uint8_t>(data, size));
 }
 
-/// Reads the bytes as a model and as a quad mesh. What is read has every index in range, finite coordinates, labels with
-/// names, and a size that the bytes can account for; a refusal is a sentence. The model is empty when it is refused.
+/// Reads the bytes as a model and as a quad mesh. What is read has every index in range, finite coordinates, labels
+/// with names, and a size that the bytes can account for; a refusal is a sentence. The model is empty when it is
+/// refused.
 TriangleMesh checkReading(std::span<const std::byte> bytes);
 
 /// Repairs the mesh, with and without leave to modify, and recovers its B-rep: repaired triangles are triangles, every

@@ -12,8 +12,8 @@
 namespace qmcf {
 namespace {
 
-constexpr double kSpacing = 0.25;   // Of the places looked at, in units of the base size.
-constexpr double kDistance = 0.5;   // In units of the local size.
+constexpr double kSpacing = 0.25;  // Of the places looked at, in units of the base size.
+constexpr double kDistance = 0.5;  // In units of the local size.
 constexpr double kLowest = 0.3;
 constexpr double kMinCosine = 0.3;
 

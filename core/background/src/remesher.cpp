@@ -85,7 +85,8 @@ void Remesher::applyLimits() {
     const Vec3& p = mesh_.positionOf(v);
     double& size = size_[index(v)];
     grid.forEachNear(p, [&](std::int32_t limit) {
-      const double cone = targets_.limits[index(limit)].size + targets_.gradation * distance(p, positions[index(limit)]);
+      const double cone =
+          targets_.limits[index(limit)].size + targets_.gradation * distance(p, positions[index(limit)]);
       size = std::min(size, cone);
     });
   }

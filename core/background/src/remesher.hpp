@@ -12,12 +12,12 @@ namespace qmcf {
 
 /// What the vertices of a remesh aim at.
 struct RemeshTargets {
-  double base = 0.0;             ///< Size of the quad mesh away from everything.
-  double gradation = 0.2;        ///< Largest slope of the size.
-  double relativeSize = 0.8;     ///< Length of triangle edges in units of the size.
-  std::vector<double> nodeSize;  ///< Per vertex of the mesh: size at nodes, 0 elsewhere.
+  double base = 0.0;              ///< Size of the quad mesh away from everything.
+  double gradation = 0.2;         ///< Largest slope of the size.
+  double relativeSize = 0.8;      ///< Length of triangle edges in units of the size.
+  std::vector<double> nodeSize;   ///< Per vertex of the mesh: size at nodes, 0 elsewhere.
   std::vector<SizeLimit> limits;  ///< Those inside this face.
-  std::vector<double> spacing;   ///< Per vertex of the mesh: distance of nodes to their neighbours, 0 elsewhere.
+  std::vector<double> spacing;    ///< Per vertex of the mesh: distance of nodes to their neighbours, 0 elsewhere.
 };
 
 /// Isotropic remeshing of a face with a fixed boundary of nodes: Botsch and Kobbelt 2004, with the order and the checks

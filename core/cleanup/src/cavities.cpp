@@ -1,5 +1,5 @@
-// Cavity remeshing, after Verma and Suresh 2017: a region around irregular vertices grows until its outline is convex and
-// is then filled with a pattern of at most one irregular vertex.
+// Cavity remeshing, after Verma and Suresh 2017: a region around irregular vertices grows until its outline is convex
+// and is then filled with a pattern of at most one irregular vertex.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -45,7 +45,9 @@ Cover coverOf(const EditMesh& mesh, const TriangleBvh& face, const std::vector<F
   for (const FaceId f : faces) {
     const auto sides = mesh.sides(f);
     // A triangle counts as a quad with its last corner twice.
-    const auto p = [&](std::size_t i) -> const Vec3& { return mesh.position(mesh.origin(sides[sides[i].valid() ? i : 2])); };
+    const auto p = [&](std::size_t i) -> const Vec3& {
+      return mesh.position(mesh.origin(sides[sides[i].valid() ? i : 2]));
+    };
     cover.area += 0.5 * norm(cross(p(2) - p(0), p(3) - p(1)));
     const Vec3 centre = (p(0) + p(1) + p(2) + (sides[3].valid() ? p(3) : Vec3{})) / (sides[3].valid() ? 4.0 : 3.0);
     largest = std::max(largest, face.closest(centre).squaredDistance);
@@ -62,7 +64,8 @@ std::size_t triangleCount(const EditMesh& mesh, const std::vector<FaceId>& faces
 }  // namespace
 
 /// Elements that the cavity would have to have at each vertex of its loop for the vertex to be regular.
-std::vector<int> TopologicalCleanup::wantedInside(const std::vector<HalfedgeId>& loop, const std::vector<FaceId>& cavity) const {
+std::vector<int> TopologicalCleanup::wantedInside(const std::vector<HalfedgeId>& loop,
+                                                  const std::vector<FaceId>& cavity) const {
   std::vector<int> wanted;
   for (const HalfedgeId h : loop) {
     const VertexId v = mesh_.origin(h);
@@ -145,7 +148,8 @@ bool TopologicalCleanup::fillCavity(const std::vector<HalfedgeId>& loop, const s
   for (int sweep = 0; sweep < kSettleSweeps; ++sweep) relax(mesh_, moving, target_, kGoodShape);
   const Cover after = coverOf(mesh_, target_.face, filled);
   const double worth = triangles > 0 ? kNoTriangleWorth : kRegularityWorth;
-  const bool covers = after.area >= kAreaKept * before.area && after.distance <= std::max(kNear * size, 1.5 * before.distance);
+  const bool covers =
+      after.area >= kAreaKept * before.area && after.distance <= std::max(kNear * size, 1.5 * before.distance);
   if (covers && worstOf(mesh_, filled) >= worstBefore && meanShape(mesh_, filled) >= meanBefore - worth) {
     mesh_.commit();
     ++statistics_.cavities;

@@ -7,7 +7,9 @@
 
 namespace qmcf {
 
-bool containsFace(const std::vector<FaceId>& faces, FaceId f) { return std::find(faces.begin(), faces.end(), f) != faces.end(); }
+bool containsFace(const std::vector<FaceId>& faces, FaceId f) {
+  return std::find(faces.begin(), faces.end(), f) != faces.end();
+}
 
 std::optional<std::vector<HalfedgeId>> boundaryLoop(const EditMesh& mesh, const std::vector<FaceId>& faces) {
   const auto isBorder = [&](HalfedgeId h) {

@@ -15,8 +15,8 @@ std::optional<std::vector<HalfedgeId>> boundaryLoop(const EditMesh& mesh, const 
 /// The vertices of the faces, ascending.
 std::vector<VertexId> cornersOf(const EditMesh& mesh, const std::vector<FaceId>& faces);
 
-/// What a vertex adds to the irregularity energy. A boundary vertex with too few elements has a straight or reflex corner
-/// in one of them, which no relaxation can mend.
+/// What a vertex adds to the irregularity energy. A boundary vertex with too few elements has a straight or reflex
+/// corner in one of them, which no relaxation can mend.
 int irregularity(bool boundary, int excess);
 
 bool allQuads(const EditMesh& mesh, const std::vector<FaceId>& faces);

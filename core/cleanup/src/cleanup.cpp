@@ -39,13 +39,17 @@ FaceMesh extract(const EditMesh& mesh, const FaceMesh& before) {
   return result;
 }
 
-/// Cuts quads that are turned over at a corner into triangles that are not. Returns how many.
+/// Quads with a worse shape are better off as two triangles.
+constexpr double kHopeless = 0.05;
+
+/// Cuts quads that are turned over at a corner, or nearly, into triangles that are not. Returns how many.
 std::int64_t cutInverted(EditMesh& mesh) {
   std::int64_t cuts = 0;
   const std::size_t faces = mesh.faceCapacity();
   for (std::size_t i = 0; i < faces; ++i) {
     const FaceId f(i);
-    if (mesh.kind(f) == FaceKind::removed || mesh.cornerCount(f) != 4 || !isInverted(mesh, f)) continue;
+    if (mesh.kind(f) == FaceKind::removed || mesh.cornerCount(f) != 4) continue;
+    if (!isInverted(mesh, f) && faceShape(mesh, f) >= kHopeless) continue;
     const auto sides = mesh.sides(f);
     const auto corner = [&](std::size_t c) { return mesh.origin(sides[c % 4]); };
     double best = 0.0;
@@ -105,6 +109,7 @@ Result<CleanupResult> cleanUp(const FaceMesh& mesh, const Patch& patch, const Tr
   }
   const std::int64_t turnedOver = untangle(work, where);
   const std::int64_t cuts = options.quadsOnly ? 0 : cutInverted(work);
+  if (cuts > 0) untangle(work, where);
   CleanupResult result{extract(work, mesh), topology.statistics(), 1.0, {}};
   result.statistics.turnedOver = turnedOver;
   result.statistics.cuts = cuts;

@@ -18,8 +18,8 @@ class TopologicalCleanup {
 
   /// One pass of the small operators over the mesh. Returns the number of changes.
   std::int64_t pass();
-  /// One pass of cavity remeshing, for a mesh on which the small operators have done what they can. Returns the number of
-  /// changes.
+  /// One pass of cavity remeshing, for a mesh on which the small operators have done what they can. Returns the number
+  /// of changes.
   std::int64_t cavityPass();
   [[nodiscard]] const CleanupStatistics& statistics() const { return statistics_; }
 
@@ -32,9 +32,11 @@ class TopologicalCleanup {
   bool refill(const std::vector<FaceId>& cavity);
   bool refillAround(VertexId v);
   bool remeshCavity(VertexId seed);
-  [[nodiscard]] std::vector<int> wantedInside(const std::vector<HalfedgeId>& loop, const std::vector<FaceId>& cavity) const;
+  [[nodiscard]] std::vector<int> wantedInside(const std::vector<HalfedgeId>& loop,
+                                              const std::vector<FaceId>& cavity) const;
   bool grow(std::vector<FaceId>& cavity, const std::vector<VertexId>& around) const;
-  bool fillCavity(const std::vector<HalfedgeId>& loop, const std::vector<FaceId>& cavity, const std::vector<int>& corners);
+  bool fillCavity(const std::vector<HalfedgeId>& loop, const std::vector<FaceId>& cavity,
+                  const std::vector<int>& corners);
   /// Relaxes around the vertices and keeps the change since mark if no element there has a shape below `least`.
   bool settle(const std::vector<VertexId>& vertices, double least, std::size_t mark);
 

@@ -122,7 +122,8 @@ class Subdivision {
 
   void addElements(const Element& element, const std::array<std::int32_t, 4>& middles) {
     const std::size_t corners = cornerCount(element);
-    const std::int32_t centre = add(meanOf({element.begin(), element.begin() + static_cast<std::ptrdiff_t>(corners)}), {});
+    const std::int32_t centre =
+        add(meanOf({element.begin(), element.begin() + static_cast<std::ptrdiff_t>(corners)}), {});
     for (std::size_t c = 0; c < corners; ++c) {
       result_.mesh.elements.push_back({element[c], middles[c], centre, middles[(c + corners - 1) % corners]});
     }

@@ -22,7 +22,7 @@ constexpr std::array<double, 5> kSteps{0.08, 0.2, 0.4, 0.7, 1.1};
 /// Cosine of the angle to the surface and scaled Jacobian that are as good as any here.
 constexpr double kUpright = 0.15;
 constexpr double kSquare = 0.15;
-constexpr double kClearlyUpright = 0.5;
+constexpr double kClearlyUpright = 0.85;
 
 /// How an element stands on the face.
 struct Stand {
@@ -58,7 +58,8 @@ Stand standOf(const EditMesh& mesh, const TriangleBvh& surface, FaceId f) {
     }
     stand.penalty += std::max(0.0, kUpright - upright);
     const double lengths = norm(forward) * norm(backward);
-    const double square = corners == 4 && lengths > 0.0 ? dot(area, own) / lengths : norm(area) / std::max(lengths, 1e-300);
+    const double square =
+        corners == 4 && lengths > 0.0 ? dot(area, own) / lengths : norm(area) / std::max(lengths, 1e-300);
     stand.penalty += 2.0 * std::max(0.0, kSquare - square);
     stand.turnedOver = stand.turnedOver || upright <= 0.0 || square <= 0.0;
   }
@@ -100,6 +101,100 @@ bool moveToBest(EditMesh& mesh, const RelaxationTarget& target, VertexId v) {
   return helps;
 }
 
+/// Elements around some vertices that are turned over, and their penalty.
+struct Damage {
+  int turnedOver = 0;
+  double penalty = 0.0;
+
+  friend bool operator<(const Damage& a, const Damage& b) {
+    return a.turnedOver != b.turnedOver ? a.turnedOver < b.turnedOver : a.penalty < b.penalty;
+  }
+};
+
+Damage damageAround(const EditMesh& mesh, const TriangleBvh& surface, const std::vector<VertexId>& vertices) {
+  std::vector<FaceId> faces;
+  for (const VertexId v : vertices) {
+    if (!mesh.alive(v)) continue;
+    mesh.forEachOutgoing(v, [&](HalfedgeId h) { faces.push_back(mesh.face(h)); });
+  }
+  std::sort(faces.begin(), faces.end());
+  faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+  Damage damage;
+  for (const FaceId f : faces) {
+    const Stand stand = standOf(mesh, surface, f);
+    damage.turnedOver += stand.turnedOver ? 1 : 0;
+    damage.penalty += stand.penalty;
+  }
+  return damage;
+}
+
+/// The ways to change the two triangles beside an edge. Each returns whether it could be done.
+bool joinTriangles(EditMesh& mesh, HalfedgeId h) {
+  const HalfedgeId t = mesh.twin(h);
+  mesh.fill({mesh.next(h), mesh.prev(h), mesh.next(t), mesh.prev(t)}, {mesh.face(h), mesh.face(t)}, FaceKind::element);
+  return true;
+}
+
+bool turnDiagonal(EditMesh& mesh, HalfedgeId h) {
+  const HalfedgeId t = mesh.twin(h);
+  const HalfedgeId from = mesh.prev(h);
+  const HalfedgeId to = mesh.prev(t);
+  if (mesh.connected(mesh.origin(from), mesh.origin(to))) return false;
+  joinTriangles(mesh, h);
+  mesh.cut(from, to);
+  return true;
+}
+
+bool contractEdge(EditMesh& mesh, HalfedgeId h) {
+  if (mesh.isBoundary(mesh.target(h)) || !mesh.canCollapse(h)) return false;
+  mesh.collapse(h);
+  return true;
+}
+
+bool contractTwin(EditMesh& mesh, HalfedgeId h) { return contractEdge(mesh, mesh.twin(h)); }
+
+/// Changes the two triangles beside h in the way that turns most elements back. Returns whether one does.
+bool mendPair(EditMesh& mesh, const TriangleBvh& surface, HalfedgeId h) {
+  using Change = bool (*)(EditMesh&, HalfedgeId);
+  constexpr std::array<Change, 4> kChanges{turnDiagonal, joinTriangles, contractEdge, contractTwin};
+  const HalfedgeId t = mesh.twin(h);
+  const std::vector<VertexId> around{mesh.origin(h), mesh.target(h), mesh.origin(mesh.prev(h)),
+                                     mesh.origin(mesh.prev(t))};
+  Damage least = damageAround(mesh, surface, around);
+  const int before = least.turnedOver;
+  Change best = nullptr;
+  for (const Change change : kChanges) {
+    const std::size_t mark = mesh.mark();
+    if (change(mesh, h)) {
+      const Damage damage = damageAround(mesh, surface, around);
+      if (damage.turnedOver < before && damage < least) {
+        least = damage;
+        best = change;
+      }
+    }
+    mesh.rollback(mark);
+  }
+  return best != nullptr && best(mesh, h);
+}
+
+/// Where moving vertices has not helped, pairs of triangles are changed.
+bool mendTriangles(EditMesh& mesh, const TriangleBvh& surface) {
+  bool helped = false;
+  for (std::size_t i = 0; i < mesh.faceCapacity(); ++i) {
+    const FaceId f(i);
+    if (mesh.kind(f) == FaceKind::removed || mesh.cornerCount(f) != 3 || !standOf(mesh, surface, f).turnedOver)
+      continue;
+    for (const HalfedgeId h : mesh.sides(f)) {
+      if (!h.valid() || !mesh.twin(h).valid() || mesh.cornerCount(mesh.face(mesh.twin(h))) != 3) continue;
+      if (!mendPair(mesh, surface, h)) continue;
+      helped = true;
+      break;
+    }
+  }
+  mesh.commit();
+  return helped;
+}
+
 }  // namespace
 
 std::int64_t untangle(EditMesh& mesh, const RelaxationTarget& target) {
@@ -125,7 +220,9 @@ std::int64_t untangle(EditMesh& mesh, const RelaxationTarget& target) {
       if (!mesh.isBoundary(v)) helped = moveToBest(mesh, target, v) || helped;
     }
     mesh.commit();
-    if (!helped && sweep >= kWiderSweep) break;
+    if (sweep < kWiderSweep) continue;
+    helped = mendTriangles(mesh, target.face) || helped;
+    if (!helped) break;
   }
   return found;
 }

@@ -52,7 +52,8 @@ void addMesh(CLI::App& app, MeshCommand& command) {
       ->transform(CLI::CheckedTransformer(modes).description(""))
       ->type_name("MODE")
       ->default_str("qmcf");
-  app.add_flag("--all-quad", command.options.allQuad, "Quadrilaterals only: a mesh of twice the size, each element cut up");
+  app.add_flag("--all-quad", command.options.allQuad,
+               "Quadrilaterals only: a mesh of twice the size, each element cut up");
   app.add_option("--report", command.report, "Write a report")->type_name("FILE.json");
   app.add_flag("--quiet", command.quiet, "Print nothing but errors");
 }

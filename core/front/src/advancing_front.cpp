@@ -1,4 +1,5 @@
-// The advancing front of QMCF: section 4 of the paper (Owen et al. 1999 with side edges from cross field and size field).
+// The advancing front of QMCF: section 4 of the paper (Owen et al. 1999 with side edges from cross field and size
+// field).
 #include "qmcf/front/advancing_front.hpp"
 
 #include <algorithm>
@@ -44,7 +45,8 @@ class Advance {
   void enqueue(HalfedgeId h);
   void enqueueAround(const std::vector<VertexId>& vertices);
   bool advanceFrom(HalfedgeId h, int pass);
-  std::vector<SideProposal> sides(HalfedgeId sector, int wanted, bool left, const std::optional<Vec3>& closure, int pass) const;
+  std::vector<SideProposal> sides(HalfedgeId sector, int wanted, bool left, const std::optional<Vec3>& closure,
+                                  int pass) const;
   bool tryQuad(HalfedgeId base, const SideProposal& left, const SideProposal& right, int pass);
   VertexId realize(HalfedgeId sector, const SideProposal& side);
   bool fitsSize(VertexId a, VertexId b, int pass) const;
@@ -96,7 +98,8 @@ bool Advance::fitsSize(VertexId a, VertexId b, int pass) const {
   return length >= kShortest[static_cast<std::size_t>(pass)] && length <= kLongest[static_cast<std::size_t>(pass)];
 }
 
-std::vector<SideProposal> Advance::sides(HalfedgeId sector, int wanted, bool left, const std::optional<Vec3>& closure, int pass) const {
+std::vector<SideProposal> Advance::sides(HalfedgeId sector, int wanted, bool left, const std::optional<Vec3>& closure,
+                                         int pass) const {
   const EditMesh& view = front_.mesh();
   if (wanted > 1) return proposeSide(front_, {sector, wanted, left, closure, pass + 1 == kPasses}, options_);
   SideProposal there;
@@ -171,7 +174,8 @@ bool Advance::tryQuad(HalfedgeId base, const SideProposal& left, const SidePropo
   const VertexId b = m.target(base);
   const bool leftThere = left.existing.valid() && left.existing == m.origin(previous);
   const bool rightThere = right.existing.valid() && right.existing == m.target(following);
-  const bool joins = (left.existing.valid() && !leftThere) || (right.existing.valid() && !rightThere) || (leftThere && rightThere);
+  const bool joins =
+      (left.existing.valid() && !leftThere) || (right.existing.valid() && !rightThere) || (leftThere && rightThere);
   if (left.existing.valid() && left.existing == right.existing) return false;
 
   std::vector<HalfedgeId> touched{base};
@@ -298,7 +302,8 @@ Result<FrontResult> Advance::run(Progress& progress) {
   // Every success consumes open area and every failure waits for one; the bound is far above what that takes.
   const std::size_t maxSteps = 2000 + 40 * front_.patch().surface.triangleCount();
   for (std::size_t step = 0; step < maxSteps; ++step) {
-    if (step % 64 == 0 && !progress.report(Stage::front, std::min(1.0, static_cast<double>(statistics_.quads) / expected))) {
+    if (step % 64 == 0 &&
+        !progress.report(Stage::front, std::min(1.0, static_cast<double>(statistics_.quads) / expected))) {
       return cancelledError();
     }
     const HalfedgeId h = queue_.pop();

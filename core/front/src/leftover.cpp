@@ -72,7 +72,8 @@ std::int64_t pairTriangles(FrontMesh& front) {
   for (const auto& [negativeQuality, h] : pairs) {
     if (!mesh.alive(h) || !mesh.isOpen(h) || front.isFront(h)) continue;
     const HalfedgeId t = mesh.twin(h);
-    mesh.fill({mesh.next(h), mesh.prev(h), mesh.next(t), mesh.prev(t)}, {mesh.face(h), mesh.face(t)}, FaceKind::element);
+    mesh.fill({mesh.next(h), mesh.prev(h), mesh.next(t), mesh.prev(t)}, {mesh.face(h), mesh.face(t)},
+              FaceKind::element);
     ++count;
   }
   for (std::size_t i = 0; i < mesh.faceCapacity(); ++i) {

@@ -69,9 +69,8 @@ std::optional<FaceId> formElement(FrontMesh& front, const std::vector<VertexId>&
       if (corners[i] == corners[j]) return std::nullopt;
     }
   }
-  const double quality = corners.size() == 4
-                             ? quadShape(mesh, {corners[0], corners[1], corners[2], corners[3]})
-                             : triangleShape(mesh, corners[0], corners[1], corners[2]);
+  const double quality = corners.size() == 4 ? quadShape(mesh, {corners[0], corners[1], corners[2], corners[3]})
+                                             : triangleShape(mesh, corners[0], corners[1], corners[2]);
   if (!(quality >= least)) return std::nullopt;
   std::vector<HalfedgeId> boundary;
   for (std::size_t i = 0; i < corners.size(); ++i) {
@@ -133,8 +132,7 @@ std::vector<FaceId> closeLoop(FrontMesh& front, HalfedgeId h, int length, double
     }
   }
   if (best == nullptr) return {};
-  return mesh.fill(loop, *region, best->cells,
-                   best->hasMiddle ? std::vector{middle} : std::vector<EditMesh::Vertex>{});
+  return mesh.fill(loop, *region, best->cells, best->hasMiddle ? std::vector{middle} : std::vector<EditMesh::Vertex>{});
 }
 
 }  // namespace qmcf

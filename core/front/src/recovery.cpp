@@ -47,11 +47,13 @@ bool crosses(const EditMesh& mesh, const LocalPlane& plane, HalfedgeId h, Vertex
   const Vec2 pb = at(mesh, plane, b);
   const Vec2 pu = at(mesh, plane, u);
   const Vec2 pv = at(mesh, plane, v);
-  return (orient(pa, pb, pu) > 0.0) != (orient(pa, pb, pv) > 0.0) && (orient(pu, pv, pa) > 0.0) != (orient(pu, pv, pb) > 0.0);
+  return (orient(pa, pb, pu) > 0.0) != (orient(pa, pb, pv) > 0.0) &&
+         (orient(pu, pv, pa) > 0.0) != (orient(pu, pv, pb) > 0.0);
 }
 
 /// The edges that the segment from the sector's vertex to target crosses, in order; empty if a front is in the way.
-std::vector<HalfedgeId> crossedEdges(const FrontMesh& front, HalfedgeId sector, VertexId target, const LocalPlane& plane) {
+std::vector<HalfedgeId> crossedEdges(const FrontMesh& front, HalfedgeId sector, VertexId target,
+                                     const LocalPlane& plane) {
   const EditMesh& mesh = front.mesh();
   const Vec2 a = at(mesh, plane, mesh.origin(sector));
   const Vec2 p = at(mesh, plane, target);
@@ -174,7 +176,8 @@ VertexId insertInFace(FrontMesh& front, FaceId face, const EditMesh::Vertex& ver
   std::array<double, 3> area{};
   double sum = 0.0;
   for (std::size_t i = 0; i < 3; ++i) {
-    area[i] = orient(mesh.position(mesh.origin(sides[i])), mesh.position(mesh.target(sides[i])), vertex.position, vertex.normal);
+    area[i] = orient(mesh.position(mesh.origin(sides[i])), mesh.position(mesh.target(sides[i])), vertex.position,
+                     vertex.normal);
     sum += area[i];
   }
   if (!(sum > 0.0)) return {};

@@ -112,7 +112,8 @@ std::vector<SideProposal> proposeSide(const FrontMesh& front, const SideRequest&
 
   // Look ahead: where an opposite front is near, the rows in between must be whole.
   const LocalPlane plane(position, normalized(normal + trace.end.normal));
-  const WalkResult walk = walkTowards(front, request.sector, position + trace.direction * (kReach * trace.length), plane);
+  const WalkResult walk =
+      walkTowards(front, request.sector, position + trace.direction * (kReach * trace.length), plane);
   bool joins = false;
   if (walk.end == WalkResult::End::blocked) {
     const double gap = walk.fraction * kReach;
@@ -139,7 +140,8 @@ std::vector<SideProposal> proposeSide(const FrontMesh& front, const SideRequest&
   for (const VertexId v : frontNodesNear(front, around, trace.end.position, 1.5 * snap * trace.length)) {
     if (v == a) continue;
     const Vec3 offset = mesh.position(v) - trace.end.position;
-    const double cost = std::max(std::fabs(dot(offset, trace.direction)), std::fabs(dot(offset, sideways))) / trace.length;
+    const double cost =
+        std::max(std::fabs(dot(offset, trace.direction)), std::fabs(dot(offset, sideways))) / trace.length;
     if (cost < kCrowded) crowded = true;
     if (v == before || v == after || cost > snap) continue;
     SideProposal proposal;

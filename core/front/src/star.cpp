@@ -26,7 +26,8 @@ FaceId locateOpenFace(const FrontMesh& front, FaceId start, const EditMesh::Vert
     double worstArea = 0.0;
     HalfedgeId h = first;
     do {
-      const double area = orient(mesh.position(mesh.origin(h)), mesh.position(mesh.target(h)), vertex.position, vertex.normal);
+      const double area =
+          orient(mesh.position(mesh.origin(h)), mesh.position(mesh.target(h)), vertex.position, vertex.normal);
       if (area < worstArea) {
         worstArea = area;
         worst = h;
@@ -123,8 +124,8 @@ bool placeCells(FrontMesh& front, FaceId start, const std::vector<EditMesh::Vert
   return formed;
 }
 
-/// Direction of a separatrix at the centre: where the field is radial. The field on a small circle turns by index / 4 of
-/// the turn of the radius, so one solution gives all of them.
+/// Direction of a separatrix at the centre: where the field is radial. The field on a small circle turns by index / 4
+/// of the turn of the radius, so one solution gives all of them.
 double firstSeparatrix(const FrontMesh& front, const EditMesh::Vertex& centre, const LocalPlane& plane, double radius,
                        int index) {
   constexpr int kSamples = 16;
@@ -145,7 +146,8 @@ double firstSeparatrix(const FrontMesh& front, const EditMesh::Vertex& centre, c
 bool placeStar(FrontMesh& front, const Singularity& singularity) {
   const int spokes = 4 - singularity.index;
   if (spokes < 3 || spokes > 6) return false;
-  const EditMesh::Vertex centre = front.vertexNear(singularity.point, positionOf(front.patch().surface, singularity.point));
+  const EditMesh::Vertex centre =
+      front.vertexNear(singularity.point, positionOf(front.patch().surface, singularity.point));
   const double h = front.sizeAt(centre.location);
   const FaceId near = openFaceNear(front, centre.location);
   if (!near.valid()) return false;
@@ -176,10 +178,11 @@ bool placeSeed(FrontMesh& front, double place) {
   const auto first = static_cast<std::size_t>(place * static_cast<double>(count));
   for (std::size_t i = 0; i < count; ++i) {
     const TriangleId t((first + i) % count);
-    const EditMesh::Vertex centre =
-        front.vertexNear({t, {1.0 / 3, 1.0 / 3, 1.0 / 3}}, positionOf(front.patch().surface, {t, {1.0 / 3, 1.0 / 3, 1.0 / 3}}));
+    const EditMesh::Vertex centre = front.vertexNear(
+        {t, {1.0 / 3, 1.0 / 3, 1.0 / 3}}, positionOf(front.patch().surface, {t, {1.0 / 3, 1.0 / 3, 1.0 / 3}}));
     const double h = front.sizeAt(centre.location);
-    const Vec3 x = normalized(tangentPart(crossDirections(front.patch().surface, front.field(), centre.location)[0], centre.normal));
+    const Vec3 x = normalized(
+        tangentPart(crossDirections(front.patch().surface, front.field(), centre.location)[0], centre.normal));
     const Vec3 y = cross(centre.normal, x);
     std::vector<EditMesh::Vertex> vertices;
     for (const auto& [u, v] : {std::pair{-0.5, -0.5}, {0.5, -0.5}, {0.5, 0.5}, {-0.5, 0.5}}) {

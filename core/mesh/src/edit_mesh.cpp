@@ -134,7 +134,8 @@ void EditMesh::setVertex(VertexId v, const Vertex& vertex) {
 }
 
 void EditMesh::flip(HalfedgeId h) {
-  // h runs a -> b in (a, b, c), t runs b -> a in (b, a, d). Afterwards h runs d -> c in (d, c, a), t c -> d in (c, d, b).
+  // h runs a -> b in (a, b, c), t runs b -> a in (b, a, d). Afterwards h runs d -> c in (d, c, a), t c -> d in (c, d,
+  // b).
   const HalfedgeId t = twin(h);
   assert(isOpen(h) && t.valid() && isOpen(t));
   const HalfedgeId bc = next(h);
@@ -228,8 +229,7 @@ FaceId EditMesh::fill(const std::vector<HalfedgeId>& boundary, const std::vector
 }
 
 std::vector<FaceId> EditMesh::fill(const std::vector<HalfedgeId>& boundary, const std::vector<FaceId>& region,
-                                   const std::vector<std::array<int, 4>>& cells,
-                                   const std::vector<Vertex>& inner) {
+                                   const std::vector<std::array<int, 4>>& cells, const std::vector<Vertex>& inner) {
   std::vector<VertexId> vertices;
   for (const HalfedgeId h : boundary) vertices.push_back(origin(h));
   clear(boundary, region);

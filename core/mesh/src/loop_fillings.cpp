@@ -23,8 +23,8 @@ std::vector<Cells> product(const std::vector<Cells>& left, const std::vector<Cel
   return all;
 }
 
-/// All quadrangulations of a polygon without new vertices: the quad at its first edge has its other corners at i < j, and
-/// each polygon that it cuts off has an even number of corners.
+/// All quadrangulations of a polygon without new vertices: the quad at its first edge has its other corners at i < j,
+/// and each polygon that it cuts off has an even number of corners.
 std::vector<Cells> quadrangulations(const Polygon& polygon) {
   const std::size_t n = polygon.size();
   if (n == 2) return {{}};

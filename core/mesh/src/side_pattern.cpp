@@ -32,7 +32,8 @@ class Grid {
       }
     }
     for (int v = 0; v < height_; ++v) {
-      for (int u = 0; u < width_; ++u) pattern.cells.push_back({at(u, v), at(u + 1, v), at(u + 1, v + 1), at(u, v + 1)});
+      for (int u = 0; u < width_; ++u)
+        pattern.cells.push_back({at(u, v), at(u + 1, v), at(u + 1, v + 1), at(u, v + 1)});
     }
   }
 
@@ -58,8 +59,8 @@ SidePattern gridPattern(const std::vector<Vec3>& loop, const std::vector<int>& c
   return pattern;
 }
 
-/// Spokes run from a split of each side to the middle; spoke i is as long as the end of side i - 1 and the start of side
-/// i + 1, so that the grids at the corners fit. Their lengths, or nothing if one is not a whole number above 0.
+/// Spokes run from a split of each side to the middle; spoke i is as long as the end of side i - 1 and the start of
+/// side i + 1, so that the grids at the corners fit. Their lengths, or nothing if one is not a whole number above 0.
 std::optional<std::vector<int>> spokeLengths(const std::vector<int>& sides) {
   const std::size_t k = sides.size();
   std::vector<int> spokes(k);
@@ -77,7 +78,8 @@ std::optional<std::vector<int>> spokeLengths(const std::vector<int>& sides) {
   return spokes;
 }
 
-SidePattern spokePattern(const std::vector<Vec3>& loop, const std::vector<int>& corners, const std::vector<int>& spokes) {
+SidePattern spokePattern(const std::vector<Vec3>& loop, const std::vector<int>& corners,
+                         const std::vector<int>& spokes) {
   const auto count = static_cast<int>(loop.size());
   const std::size_t k = corners.size();
   SidePattern pattern;

@@ -30,7 +30,8 @@ Result<Surface> Surface::build(std::vector<Vec3> positions, const std::vector<st
     const auto& corners = triangles[t];
     for (std::size_t c = 0; c < 3; ++c) {
       if (corners[c] < 0 || static_cast<std::size_t>(corners[c]) >= vertexCount) {
-        return Error{ErrorCode::indexOutOfRange, "Triangle " + std::to_string(t) + " names a vertex that does not exist.",
+        return Error{ErrorCode::indexOutOfRange,
+                     "Triangle " + std::to_string(t) + " names a vertex that does not exist.",
                      {static_cast<std::int64_t>(t)}};
       }
       if (corners[c] == corners[(c + 1) % 3]) {
@@ -40,7 +41,8 @@ Result<Surface> Surface::build(std::vector<Vec3> positions, const std::vector<st
     }
   }
 
-  // Directed edges sorted by (from, to): a repeated one is non-manifold or inconsistently oriented, a reversed one is the twin.
+  // Directed edges sorted by (from, to): a repeated one is non-manifold or inconsistently oriented, a reversed one is
+  // the twin.
   std::vector<std::pair<std::int64_t, HalfedgeId>> directed;
   directed.reserve(s.halfedgeCount());
   for (const HalfedgeId h : s.halfedges()) directed.emplace_back(edgeKey(s.origin(h), s.target(h), vertexCount), h);
@@ -48,8 +50,8 @@ Result<Surface> Surface::build(std::vector<Vec3> positions, const std::vector<st
   for (std::size_t i = 1; i < directed.size(); ++i) {
     if (directed[i].first == directed[i - 1].first) {
       const TriangleId t = triangle(directed[i].second);
-      return brokenSurface("Triangle " + std::to_string(t.value) + " runs along an edge in the same direction as another.",
-                           t.value);
+      return brokenSurface(
+          "Triangle " + std::to_string(t.value) + " runs along an edge in the same direction as another.", t.value);
     }
   }
   for (const auto& [key, h] : directed) {
@@ -65,7 +67,8 @@ Result<Surface> Surface::build(std::vector<Vec3> positions, const std::vector<st
     if (!s.outgoing_[v].valid() || s.isBoundary(h)) s.outgoing_[v] = h;
   }
   for (const VertexId v : s.vertices()) {
-    if (!s.outgoing_[v].valid()) return brokenSurface("Vertex " + std::to_string(v.value) + " has no triangle.", v.value);
+    if (!s.outgoing_[v].valid())
+      return brokenSurface("Vertex " + std::to_string(v.value) + " has no triangle.", v.value);
     std::int32_t visited = 0;
     s.forEachOutgoing(v, [&](HalfedgeId) { ++visited; });
     if (visited != fanSize[v.index()]) {

@@ -25,7 +25,8 @@ TriangleBvh treeOf(const TriangleMesh& mesh, const BrepFace& face) {
   return {mesh.positions, triangles};
 }
 
-/// Whether the corners and centres of the upper face's triangles, and those of the lower one's, are near the other face.
+/// Whether the corners and centres of the upper face's triangles, and those of the lower one's, are near the other
+/// face.
 bool isNear(const TriangleMesh& mesh, const BrepFace& upper, const BrepFace& lower, double distance) {
   const TriangleBvh tree = treeOf(mesh, lower);
   for (const std::int32_t t : upper.triangles) {
@@ -136,7 +137,8 @@ CoveredFaces coveredFaces(const TriangleMesh& mesh, const Brep& brep, double dis
     byEdges.emplace_back(std::move(edges), static_cast<std::int32_t>(f));
   }
   std::sort(byEdges.begin(), byEdges.end());
-  CoveredFaces covered{std::vector<std::int32_t>(brep.faces.size(), kNone), std::vector<std::uint8_t>(brep.faces.size(), 0)};
+  CoveredFaces covered{std::vector<std::int32_t>(brep.faces.size(), kNone),
+                       std::vector<std::uint8_t>(brep.faces.size(), 0)};
   std::vector<std::int32_t>& below = covered.below;
   for (std::size_t i = 0; i < byEdges.size(); ++i) {
     for (std::size_t j = i + 1; j < byEdges.size() && byEdges[j].first == byEdges[i].first; ++j) {
@@ -150,7 +152,8 @@ CoveredFaces coveredFaces(const TriangleMesh& mesh, const Brep& brep, double dis
       below[static_cast<std::size_t>(omitted)] = kept;
     }
   }
-  if (std::any_of(below.begin(), below.end(), [](std::int32_t lower) { return lower != kNone; })) turnToFit(brep, covered);
+  if (std::any_of(below.begin(), below.end(), [](std::int32_t lower) { return lower != kNone; }))
+    turnToFit(brep, covered);
   preferUnturned(brep, covered);
   return covered;
 }

@@ -15,8 +15,8 @@ struct CoveredFaces {
 };
 
 /// Faces between the same edges as another one and nowhere farther from it than `distance`: two layers that elements
-/// of a larger size can't tell apart, so that only one of them can be meshed: the one whose orientation agrees better with
-/// the faces around.
+/// of a larger size can't tell apart, so that only one of them can be meshed: the one whose orientation agrees better
+/// with the faces around.
 CoveredFaces coveredFaces(const TriangleMesh& mesh, const Brep& brep, double distance);
 
 }  // namespace qmcf

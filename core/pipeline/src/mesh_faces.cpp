@@ -89,7 +89,8 @@ bool gotStuck(const FaceMesh& mesh, const Patch& patch) {
   constexpr std::size_t kFew = 12;
   const Yield yield = yieldOf(mesh);
   const bool isSmall = mesh.elements.size() < kFew && patch.surface.triangleCount() < 4 * kFew;
-  return !isSmall && (yield.triangleShare > kMostTriangles || yield.area < kLeastArea * yieldOf(trianglesOf(patch)).area);
+  return !isSmall &&
+         (yield.triangleShare > kMostTriangles || yield.area < kLeastArea * yieldOf(trianglesOf(patch)).area);
 }
 
 /// The front of the chosen mode, before the clean-up. seedPlace: where a front starts that nothing else does.
@@ -191,7 +192,8 @@ QuadMesh joinFaces(const Brep& brep, const PreparedFaces& prepared, const std::v
   };
   // Per division of each edge, the vertex that halves it; used only where the faces were subdivided.
   std::vector<std::vector<std::int32_t>> halves(brep.edges.size());
-  for (std::size_t e = 0; e < brep.edges.size(); ++e) halves[e].assign(prepared.divided.edges[e].nodes.size() - 1, kNone);
+  for (std::size_t e = 0; e < brep.edges.size(); ++e)
+    halves[e].assign(prepared.divided.edges[e].nodes.size() - 1, kNone);
   for (const MeshedFace& face : faces) {
     const Patch& patch = prepared.patches[static_cast<std::size_t>(face.report.face)];
     std::vector<std::int32_t> vertexOf;

@@ -16,8 +16,8 @@ struct MeshedFace {
 
 /// Advancing front and clean-up; if an element is turned over in the result, the paired triangles of the background;
 /// failing that, the triangles themselves (H 8 of docs/algorithm.md). Errors: cancelled.
-Result<MeshedFace> meshFace(const TriangleMesh& mesh, const Brep& brep, const PreparedFaces& prepared, std::int32_t face,
-                            const MeshOptions& options, Progress& progress);
+Result<MeshedFace> meshFace(const TriangleMesh& mesh, const Brep& brep, const PreparedFaces& prepared,
+                            std::int32_t face, const MeshOptions& options, Progress& progress);
 
 /// Cuts every element at the middles of its edges, so that only quadrilaterals are left, and relaxes them.
 /// Errors: cancelled.

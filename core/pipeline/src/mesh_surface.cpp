@@ -32,6 +32,9 @@ MeshOptions withField(MeshOptions options) {
 /// How often places where the mesh is not valid get smaller elements, and how small these may be in units of the base.
 constexpr int kMaxRefinements = 4;
 constexpr double kLowestSize = 0.02;
+/// A run that has to make so many times the elements of the first attempt, or twice the faults of the best, is lost.
+constexpr double kMostGrowth = 1.5;
+constexpr std::size_t kFewFaults = 10;
 /// Two faces between the same edges that are nearer to each other than this, in units of the base, get one mesh.
 constexpr double kTellApart = 0.25;
 
@@ -77,12 +80,14 @@ class MeshRun {
     covered_ = coveredFaces(mesh_, brep_, kTellApart * base);
     faces_.resize(brep_.faces.size());
     std::size_t fewest = 0;
+    double mostElements = 0.0;
     for (int attempt = 0;; ++attempt) {
       if (const auto error = meshChanged(prepared)) return *error;
       auto joined = join(prepared);
       if (!joined) return joined.error();
       if (!progress_.report(Stage::quality, 0.0)) return cancelledError();
       QualityReport quality = measureQuality(joined.value().mesh, &mesh_, qualityOptions(options_, result_.size));
+      const std::size_t elements = joined.value().mesh.elements.size();
       std::vector<SizeLimit> limits = tooCoarse(joined.value().mesh, quality);
       if (attempt == 0 || limits.size() < fewest) {
         fewest = limits.size();
@@ -92,7 +97,9 @@ class MeshRun {
         describe(prepared);
       }
       limits = notBelow(limits, kLowestSize * base);
-      if (limits.empty() || attempt == kMaxRefinements) return std::move(result_);
+      if (attempt == 0) mostElements = kMostGrowth * static_cast<double>(elements);
+      const bool isLost = static_cast<double>(elements) > mostElements || limits.size() > 2 * fewest + kFewFaults;
+      if (limits.empty() || isLost || attempt == kMaxRefinements) return std::move(result_);
       auto refined = refineFaces(mesh_, brep_, options_, std::move(prepared), limits, progress_);
       if (!refined) return refined.error();
       prepared = std::move(refined).value();

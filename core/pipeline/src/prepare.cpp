@@ -88,7 +88,8 @@ class Preparation {
         return finish();
       }
     }
-    return Error{ErrorCode::internal, "Some faces could not be triangulated with any number of divisions of their edges.",
+    return Error{ErrorCode::internal,
+                 "Some faces could not be triangulated with any number of divisions of their edges.",
                  {tooCoarse_.begin(), tooCoarse_.end()}};
   }
 

@@ -14,10 +14,10 @@ namespace qmcf {
 struct PreparedFaces {
   SizeField size;
   DividedEdges divided;
-  std::vector<Patch> patches;          ///< One per face of the B-rep.
-  std::vector<CrossField> fields;      ///< One per patch; empty ones in a mode that asks no field.
+  std::vector<Patch> patches;                  ///< One per face of the B-rep.
+  std::vector<CrossField> fields;              ///< One per patch; empty ones in a mode that asks no field.
   std::vector<std::int32_t> minimumDivisions;  ///< Per edge: what its faces asked for, >= 1.
-  std::vector<std::int32_t> changed;   ///< Faces that the last call made anew, ascending.
+  std::vector<std::int32_t> changed;           ///< Faces that the last call made anew, ascending.
 };
 
 /// Size field, divided edges, background triangulations and cross fields. Edges whose chords would cut through a face

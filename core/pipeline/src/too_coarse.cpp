@@ -36,7 +36,8 @@ std::vector<SizeLimit> halvedAt(const FaceMesh& mesh, const std::vector<std::int
 std::vector<SizeLimit> halvedWhereInvalid(const QuadMesh& mesh, const QualityReport& quality) {
   std::vector<SizeLimit> limits;
   for (const ValidityCheck& check : quality.checks) {
-    const bool isAboutElements = std::find(kAboutElements.begin(), kAboutElements.end(), check.name) != kAboutElements.end();
+    const bool isAboutElements =
+        std::find(kAboutElements.begin(), kAboutElements.end(), check.name) != kAboutElements.end();
     if (check.status != CheckStatus::fail || !isAboutElements) continue;
     for (const std::int64_t id : check.elements) {
       const auto e = static_cast<std::size_t>(id);

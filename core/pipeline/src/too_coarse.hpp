@@ -13,8 +13,8 @@ namespace qmcf {
 /// Half the present length at the middle of each of these elements of a face.
 std::vector<SizeLimit> halvedAt(const FaceMesh& mesh, const std::vector<std::int32_t>& elements, std::int32_t face);
 
-/// Half the present length at the elements for which a joined mesh is not valid: where these are too large for the part,
-/// two walls meet in the same elements or an element lies against the surface.
+/// Half the present length at the elements for which a joined mesh is not valid: where these are too large for the
+/// part, two walls meet in the same elements or an element lies against the surface.
 std::vector<SizeLimit> halvedWhereInvalid(const QuadMesh& mesh, const QualityReport& quality);
 
 /// The limits that ask for at least `lowest`.

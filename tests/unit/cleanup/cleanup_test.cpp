@@ -64,7 +64,8 @@ TEST(CleanUp, LeavesAPerfectGridAlone) {
   const CleanupResult result = clean(grid, patch);
   EXPECT_EQ(result.mesh.elements.size(), 36U);
   EXPECT_NEAR(result.worstShape, 1.0, 1e-9);
-  for (std::size_t v = 0; v < grid.positions.size(); ++v) EXPECT_LT(distance(result.mesh.positions[v], grid.positions[v]), 1e-9);
+  for (std::size_t v = 0; v < grid.positions.size(); ++v)
+    EXPECT_LT(distance(result.mesh.positions[v], grid.positions[v]), 1e-9);
 }
 
 TEST(CleanUp, RelaxesNoiseBackToTheGrid) {
@@ -133,7 +134,8 @@ TEST(Subdivide, CutsQuadrilateralsInFourAndTrianglesInThree) {
   for (const HalfedgeId h : IdRange<HalfedgeId>(patch.surface.halfedgeCount())) {
     if (!patch.surface.isBoundary(h)) continue;
     ++boundary;
-    middle[h] = (patch.surface.position(patch.surface.origin(h)) + patch.surface.position(patch.surface.target(h))) * 0.5;
+    middle[h] =
+        (patch.surface.position(patch.surface.origin(h)) + patch.surface.position(patch.surface.target(h))) * 0.5;
   }
   const SubdividedFace cut = subdivide(mesh, patch, treeOf(patch), middle);
   ASSERT_EQ(cut.mesh.elements.size(), 15U * 4U + 2U * 3U);

@@ -55,11 +55,12 @@ TEST(AdvancingFront, MeshesADiskWithFewTriangles) {
 }
 
 TEST(AdvancingFront, MeshesRingsTubesAndClosedSurfaces) {
-  const std::array<std::pair<const char*, Patch>, 5> parts{{{"pentagonal ring", testing::makePolygonRing(5, 8, 6, false)},
-                                                            {"hexagon, round hole", withSize(testing::makePolygonRing(6, 10, 8, true), 0.07)},
-                                                            {"tube", testing::makeCylinder(24, 12, 3.0)},
-                                                            {"sphere", testing::makeSphere(8)},
-                                                            {"torus", withSize(testing::makeTorus(40, 16), 0.16)}}};
+  const std::array<std::pair<const char*, Patch>, 5> parts{
+      {{"pentagonal ring", testing::makePolygonRing(5, 8, 6, false)},
+       {"hexagon, round hole", withSize(testing::makePolygonRing(6, 10, 8, true), 0.07)},
+       {"tube", testing::makeCylinder(24, 12, 3.0)},
+       {"sphere", testing::makeSphere(8)},
+       {"torus", withSize(testing::makeTorus(40, 16), 0.16)}}};
   for (const auto& [name, patch] : parts) {
     SCOPED_TRACE(name);
     const FrontResult result = mesh(patch);

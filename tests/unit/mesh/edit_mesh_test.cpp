@@ -129,7 +129,8 @@ TEST(EditMesh, RollsBackToExactlyWhatItWas) {
 TEST(EditMesh, FillsARegionAndRemovesWhatWasInside) {
   EditMesh mesh = editable(squareGrid(4));
   // The 2 x 2 cells in the middle: 8 boundary edges around one inner vertex.
-  const std::vector<VertexId> ring{VertexId(6), VertexId(7), VertexId(8), VertexId(13), VertexId(18), VertexId(17), VertexId(16), VertexId(11)};
+  const std::vector<VertexId> ring{VertexId(6),  VertexId(7),  VertexId(8),  VertexId(13),
+                                   VertexId(18), VertexId(17), VertexId(16), VertexId(11)};
   std::vector<HalfedgeId> boundary;
   for (std::size_t i = 0; i < ring.size(); ++i) boundary.push_back(mesh.find(ring[i], ring[(i + 1) % ring.size()]));
   std::vector<FaceId> region;

@@ -23,7 +23,8 @@ std::pair<std::vector<Vec3>, std::vector<int>> polygon(const std::vector<int>& s
   for (std::size_t i = 0; i < sides.size(); ++i) {
     starts.push_back(static_cast<int>(loop.size()));
     const Vec3& next = corner[(i + 1) % sides.size()];
-    for (int k = 0; k < sides[i]; ++k) loop.push_back(corner[i] + (next - corner[i]) * (static_cast<double>(k) / sides[i]));
+    for (int k = 0; k < sides[i]; ++k)
+      loop.push_back(corner[i] + (next - corner[i]) * (static_cast<double>(k) / sides[i]));
   }
   return {loop, starts};
 }
@@ -91,7 +92,8 @@ TEST(SidePattern, FillsThreeAndFiveSidesAroundOneVertex) {
 }
 
 TEST(SidePattern, RefusesSidesThatDoNotFit) {
-  for (const std::vector<int>& sides : std::vector<std::vector<int>>{{2, 3, 3, 3}, {2, 2, 3}, {2, 2, 4}, {2, 2}, {9, 2, 2, 2, 3}}) {
+  for (const std::vector<int>& sides :
+       std::vector<std::vector<int>>{{2, 3, 3, 3}, {2, 2, 3}, {2, 2, 4}, {2, 2}, {9, 2, 2, 2, 3}}) {
     const auto [loop, corners] = polygon(sides);
     EXPECT_FALSE(fillSides(loop, corners).has_value()) << ::testing::PrintToString(sides);
   }

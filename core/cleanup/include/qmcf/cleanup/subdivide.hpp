@@ -10,7 +10,7 @@ namespace qmcf {
 
 /// The mesh of a face with every element cut at the middles of its edges.
 struct SubdividedFace {
-  FaceMesh mesh;                      ///< Quadrilaterals only. The vertices of the coarser mesh come first.
+  FaceMesh mesh;                         ///< Quadrilaterals only. The vertices of the coarser mesh come first.
   std::vector<HalfedgeId> boundaryEdge;  ///< Per vertex: the patch's boundary edge that it halves; invalid elsewhere.
 };
 

@@ -14,8 +14,8 @@ namespace qmcf {
 
 /// The working triangulation with the questions that an advancing front asks it. A front edge is a half-edge of an open
 /// triangle whose other side is an element or nothing; the open region lies on its left.
-/// The sector of a front edge a -> b is the fan of open triangles at a, counter-clockwise from a -> b up to the previous
-/// front edge. A vertex where the front touches itself has several sectors.
+/// The sector of a front edge a -> b is the fan of open triangles at a, counter-clockwise from a -> b up to the
+/// previous front edge. A vertex where the front touches itself has several sectors.
 class FrontMesh {
  public:
   FrontMesh(const Patch& patch, const CrossField& field);
@@ -35,8 +35,8 @@ class FrontMesh {
   /// Number of front edges in h's loop, or nothing when it has more than limit.
   [[nodiscard]] std::optional<int> loopLength(HalfedgeId h, int limit) const;
 
-  /// Whether h's loop encloses the open region in front of it, rather than being an island in it: its angles sum to less
-  /// than a straight line at each vertex.
+  /// Whether h's loop encloses the open region in front of it, rather than being an island in it: its angles sum to
+  /// less than a straight line at each vertex.
   [[nodiscard]] bool turnsInward(HalfedgeId h) const;
 
   /// Boundary vertices of the patch can't move.

@@ -22,12 +22,14 @@ struct WalkResult {
 /// Walks from the origin of the front edge `sector` straight towards target through open triangles.
 WalkResult walkTowards(const FrontMesh& front, HalfedgeId sector, const Vec3& target, const LocalPlane& plane);
 
-/// Makes a straight edge from the origin of `sector` to `target` by swaps of open triangles' edges (Owen et al. 1999, top
-/// edge recovery), within that sector. Returns the half-edge, or an invalid one; the mesh may then have been changed.
+/// Makes a straight edge from the origin of `sector` to `target` by swaps of open triangles' edges (Owen et al. 1999,
+/// top edge recovery), within that sector. Returns the half-edge, or an invalid one; the mesh may then have been
+/// changed.
 HalfedgeId recoverEdge(FrontMesh& front, HalfedgeId sector, VertexId target);
 
 /// Puts a vertex at the end of a walk from the origin of `sector`: by moving a free vertex that is near (within
-/// `reuse`), else by splitting the open edge or triangle found there. Returns an invalid id where a front is in the way.
+/// `reuse`), else by splitting the open edge or triangle found there. Returns an invalid id where a front is in the
+/// way.
 VertexId insertVertex(FrontMesh& front, HalfedgeId sector, const EditMesh::Vertex& vertex, double reuse);
 
 /// Splits or reuses in a given open face.

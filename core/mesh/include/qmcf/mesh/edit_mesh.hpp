@@ -20,15 +20,16 @@ enum class FaceKind : std::uint8_t {
   element,  ///< A finished quadrilateral or triangle.
 };
 
-/// The working triangulation W: a conforming, consistently oriented manifold mix of open triangles and finished elements,
-/// edited in place. Every edit is journalled: mark() and rollback() make any sequence of edits a transaction.
-/// Half-edges keep their ids through flips and splits of the faces beside them, so an id is a stable name of a front edge.
+/// The working triangulation W: a conforming, consistently oriented manifold mix of open triangles and finished
+/// elements, edited in place. Every edit is journalled: mark() and rollback() make any sequence of edits a transaction.
+/// Half-edges keep their ids through flips and splits of the faces beside them, so an id is a stable name of a front
+/// edge.
 class EditMesh {
  public:
   /// Geometry of a vertex.
   struct Vertex {
     Vec3 position;
-    Vec3 normal;           ///< Unit normal of the underlying surface.
+    Vec3 normal;            ///< Unit normal of the underlying surface.
     SurfacePoint location;  ///< Where it lies on the background surface.
   };
 
@@ -79,7 +80,8 @@ class EditMesh {
   /// Number of corners of a face.
   [[nodiscard]] int cornerCount(FaceId f) const { return next(next(next(halfedge(f)))) == halfedge(f) ? 3 : 4; }
 
-  /// Calls visit(HalfedgeId) for each half-edge leaving v. For a boundary vertex counter-clockwise from the boundary edge.
+  /// Calls visit(HalfedgeId) for each half-edge leaving v. For a boundary vertex counter-clockwise from the boundary
+  /// edge.
   template <class Visit>
   void forEachOutgoing(VertexId v, Visit visit) const {
     const HalfedgeId first = outgoing(v);
@@ -104,14 +106,14 @@ class EditMesh {
   /// boundary's origins, counter-clockwise; indices from boundary.size() on are the new vertices `inner`.
   std::vector<FaceId> fill(const std::vector<HalfedgeId>& boundary, const std::vector<FaceId>& region,
                            const std::vector<std::array<int, 4>>& cells, const std::vector<Vertex>& inner);
-  /// Cuts a face in two by an edge between the origins of two of its half-edges that are not neighbours. Returns the new
-  /// half-edge from origin(from) to origin(to); its face is new.
+  /// Cuts a face in two by an edge between the origins of two of its half-edges that are not neighbours. Returns the
+  /// new half-edge from origin(from) to origin(to); its face is new.
   HalfedgeId cut(HalfedgeId from, HalfedgeId to);
   /// Contracts h by moving its target into its origin; the target and the triangles beside h disappear.
   /// \pre canCollapse(h)
   void collapse(HalfedgeId h);
-  /// Whether collapse(h) keeps the mesh manifold: faces beside h are triangles, no other face touches both ends, the ends
-  /// have no other common neighbours, the target is inside.
+  /// Whether collapse(h) keeps the mesh manifold: faces beside h are triangles, no other face touches both ends, the
+  /// ends have no other common neighbours, the target is inside.
   [[nodiscard]] bool canCollapse(HalfedgeId h) const;
   void setKind(FaceId f, FaceKind kind) { set(kFaceKind, f.index(), static_cast<std::int32_t>(kind)); }
   void setVertex(VertexId v, const Vertex& vertex);

@@ -6,8 +6,8 @@
 
 namespace qmcf {
 
-/// Scaled Jacobian of a quadrilateral: the smallest corner determinant, about the normal of its diagonals, over the product
-/// of the two sides, in [-1, 1]. Less, down to -1.2, where a corner leans away from the surface normal there.
+/// Scaled Jacobian of a quadrilateral: the smallest corner determinant, about the normal of its diagonals, over the
+/// product of the two sides, in [-1, 1]. Less, down to -1.2, where a corner leans away from the surface normal there.
 double quadShape(const EditMesh& mesh, const std::array<VertexId, 4>& corners);
 
 /// Shape of a triangle along the mean normal: 2 sqrt(3) |AB x AC| / (sum of squared sides), 1 for the equilateral one,

@@ -12,9 +12,9 @@ namespace qmcf {
 /// The quad-dominant mesh of one face of the B-rep, before the faces are joined at their shared nodes.
 struct FaceMesh {
   std::vector<Vec3> positions;
-  std::vector<Vec3> normals;                ///< Unit normals of the underlying surface.
-  std::vector<SurfacePoint> locations;      ///< On the patch's surface.
-  std::vector<std::int32_t> patchVertex;    ///< Boundary vertex of the patch, which is fixed; kNone inside.
+  std::vector<Vec3> normals;              ///< Unit normals of the underlying surface.
+  std::vector<SurfacePoint> locations;    ///< On the patch's surface.
+  std::vector<std::int32_t> patchVertex;  ///< Boundary vertex of the patch, which is fixed; kNone inside.
   std::vector<Element> elements;
 };
 

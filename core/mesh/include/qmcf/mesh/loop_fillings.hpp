@@ -5,8 +5,8 @@
 
 namespace qmcf {
 
-/// One way of filling a loop of vertices with quadrilaterals: their corners as indices into the loop, counter-clockwise.
-/// The index that equals the loop's length is a new vertex in the middle.
+/// One way of filling a loop of vertices with quadrilaterals: their corners as indices into the loop,
+/// counter-clockwise. The index that equals the loop's length is a new vertex in the middle.
 struct LoopFilling {
   std::vector<std::array<int, 4>> cells;
   bool hasMiddle = false;

@@ -10,13 +10,14 @@ namespace qmcf {
 
 /// Quadrilaterals that fill a loop of vertices with at most one irregular vertex.
 struct SidePattern {
-  std::vector<std::array<int, 4>> cells;  ///< Corners, counter-clockwise: first the loop's vertices, then the inner ones.
-  std::vector<Vec3> inner;                ///< Where the inner vertices belong, by transfinite interpolation of the loop.
+  std::vector<std::array<int, 4>>
+      cells;                ///< Corners, counter-clockwise: first the loop's vertices, then the inner ones.
+  std::vector<Vec3> inner;  ///< Where the inner vertices belong, by transfinite interpolation of the loop.
 };
 
 /// Fills a loop that has 3, 4 or 5 convex corners, each with one quadrilateral, and two at every other vertex: a grid
-/// between four corners, a vertex with three or five quadrilaterals in the middle of three or five. corners: indices into
-/// the loop, ascending. Nothing when the lengths of the sides do not allow it.
+/// between four corners, a vertex with three or five quadrilaterals in the middle of three or five. corners: indices
+/// into the loop, ascending. Nothing when the lengths of the sides do not allow it.
 std::optional<SidePattern> fillSides(const std::vector<Vec3>& loop, const std::vector<int>& corners);
 
 }  // namespace qmcf

@@ -35,8 +35,12 @@ class Surface {
   [[nodiscard]] VertexId opposite(HalfedgeId h) const { return origin_[prev(h)]; }
   /// The other half-edge of the edge; invalid on the boundary.
   [[nodiscard]] HalfedgeId twin(HalfedgeId h) const { return twin_[h]; }
-  [[nodiscard]] static HalfedgeId next(HalfedgeId h) { return HalfedgeId(h.value % 3 == 2 ? h.value - 2 : h.value + 1); }
-  [[nodiscard]] static HalfedgeId prev(HalfedgeId h) { return HalfedgeId(h.value % 3 == 0 ? h.value + 2 : h.value - 1); }
+  [[nodiscard]] static HalfedgeId next(HalfedgeId h) {
+    return HalfedgeId(h.value % 3 == 2 ? h.value - 2 : h.value + 1);
+  }
+  [[nodiscard]] static HalfedgeId prev(HalfedgeId h) {
+    return HalfedgeId(h.value % 3 == 0 ? h.value + 2 : h.value - 1);
+  }
   [[nodiscard]] static TriangleId triangle(HalfedgeId h) { return TriangleId(h.value / 3); }
   [[nodiscard]] static HalfedgeId halfedge(TriangleId t, int corner = 0) { return HalfedgeId(3 * t.value + corner); }
   [[nodiscard]] std::array<VertexId, 3> corners(TriangleId t) const {
@@ -45,7 +49,8 @@ class Surface {
   [[nodiscard]] bool isBoundary(HalfedgeId h) const { return !twin_[h].valid(); }
   [[nodiscard]] bool isBoundary(VertexId v) const { return isBoundary(outgoing_[v]); }
 
-  /// A half-edge leaving v. For a boundary vertex it is the boundary half-edge, from which nextAround visits all others.
+  /// A half-edge leaving v. For a boundary vertex it is the boundary half-edge, from which nextAround visits all
+  /// others.
   [[nodiscard]] HalfedgeId outgoing(VertexId v) const { return outgoing_[v]; }
   /// The next outgoing half-edge of the same origin, counter-clockwise; invalid past the last triangle of an open fan.
   [[nodiscard]] HalfedgeId nextAround(HalfedgeId h) const { return twin_[prev(h)]; }

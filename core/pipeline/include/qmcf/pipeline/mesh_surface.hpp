@@ -32,21 +32,21 @@ struct MeshOptions {
   std::optional<std::int64_t> quads;  ///< Number of elements to aim at, 1 to 10,000,000. Default 3000 if size is unset.
   double featureAngle = 30.0;         ///< Dihedral angle in degrees, (0, 180), from which an edge is sharp.
   Mode mode = Mode::qmcf;             ///< The advancing front.
-  bool allQuad = false;               ///< No triangles: a mesh of twice the size with every element cut at its edges' middles.
-  bool repair = true;                 ///< false: defects of the input are reported and left as they are.
-  double gradation = 0.2;             ///< Largest slope of the size field, (0, 1].
-  bool alignBoundary = true;          ///< Field constraint: boundary edges.
-  bool alignSharp = true;             ///< Field constraint: sharp edges.
-  bool alignNonManifold = true;       ///< Field constraint: non-manifold edges.
-  bool alignCurvature = true;         ///< Field constraint: principal curvature.
-  std::vector<FieldStroke> strokes;   ///< Field constraint: lines to follow (FieldOptions::strokes); finite, not points.
+  bool allQuad = false;       ///< No triangles: a mesh of twice the size with every element cut at its edges' middles.
+  bool repair = true;         ///< false: defects of the input are reported and left as they are.
+  double gradation = 0.2;     ///< Largest slope of the size field, (0, 1].
+  bool alignBoundary = true;  ///< Field constraint: boundary edges.
+  bool alignSharp = true;     ///< Field constraint: sharp edges.
+  bool alignNonManifold = true;      ///< Field constraint: non-manifold edges.
+  bool alignCurvature = true;        ///< Field constraint: principal curvature.
+  std::vector<FieldStroke> strokes;  ///< Field constraint: lines to follow (FieldOptions::strokes); finite, not points.
 };
 
 /// How one face was meshed.
 struct FaceReport {
   std::int32_t face = kNone;
-  std::string method;                 ///< "qmcf", "qmorph", "recombined", "triangles": the step that worked; "omitted".
-  std::string reason;                 ///< Why the earlier steps did not; empty for the first.
+  std::string method;  ///< "qmcf", "qmorph", "recombined", "triangles": the step that worked; "omitted".
+  std::string reason;  ///< Why the earlier steps did not; empty for the first.
   std::int64_t quads = 0;
   std::int64_t triangles = 0;
 };
@@ -65,9 +65,9 @@ struct InspectResult {
 /// The cross field of every face.
 struct FieldResult {
   InspectResult input;
-  double size = 0.0;                   ///< The element size the field was made for.
-  std::vector<Patch> patches;          ///< One per face of the B-rep.
-  std::vector<CrossField> fields;      ///< One per patch.
+  double size = 0.0;               ///< The element size the field was made for.
+  std::vector<Patch> patches;      ///< One per face of the B-rep.
+  std::vector<CrossField> fields;  ///< One per patch.
 };
 
 /// A mesh and everything a person should know about it.
@@ -78,7 +78,7 @@ struct MeshResult {
   QualityReport quality;
   std::vector<FaceReport> faces;
   std::int64_t fieldSingularities = 0;  ///< 0 in a mode without a cross field.
-  std::int64_t refinedPlaces = 0;       ///< Where elements of the size asked for could not follow the part: smaller there.
+  std::int64_t refinedPlaces = 0;  ///< Where elements of the size asked for could not follow the part: smaller there.
 };
 
 /// Repair and B-rep only; of the options, repair and featureAngle matter. Errors: as repair() and recoverBrep().

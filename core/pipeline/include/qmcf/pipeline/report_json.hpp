@@ -8,8 +8,8 @@ namespace qmcf {
 
 /// Reports as JSON text (UTF-8), with the field names of the C++ structs. Non-finite numbers become null.
 std::string toJson(const QualityReport& report);
-/// {repair, counts, bodies, faces, edges, vertices}: repair items; counts of everything, edges also by kind; each element
-/// of the B-rep, a face with its loops.
+/// {repair, counts, bodies, faces, edges, vertices}: repair items; counts of everything, edges also by kind; each
+/// element of the B-rep, a face with its loops.
 std::string toJson(const InspectResult& result);
 /// {size, quality, faces, repair, fieldSingularities, refinedPlaces}.
 std::string toJson(const MeshResult& result);

@@ -38,11 +38,11 @@ struct EdgeSizes {
 /// Target edge length over the repaired mesh. Inside a face it is the lower envelope of the cones that rise with slope
 /// `gradation` from the values on the face's edges, at its vertices and at the limits, and nowhere above base.
 struct SizeField {
-  double base = 0.0;             ///< The length asked for, or derived from the count.
-  double gradation = 0.2;        ///< Largest |grad h|.
-  std::vector<double> value;     ///< Per vertex of the mesh, > 0.
-  std::vector<EdgeSizes> edges;  ///< Per edge of the B-rep; finer than the edge's points where these are sparse.
-  std::vector<SizeLimit> limits;               ///< As given, but graded.
+  double base = 0.0;              ///< The length asked for, or derived from the count.
+  double gradation = 0.2;         ///< Largest |grad h|.
+  std::vector<double> value;      ///< Per vertex of the mesh, > 0.
+  std::vector<EdgeSizes> edges;   ///< Per edge of the B-rep; finer than the edge's points where these are sparse.
+  std::vector<SizeLimit> limits;  ///< As given, but graded.
   std::vector<std::int32_t> minimumDivisions;  ///< Per edge of the B-rep, >= 1: what its turns ask for.
 };
 

@@ -41,8 +41,8 @@ struct RepairedMesh {
 ///   coordinates in single precision when these are larger;
 /// - triangles lower than the tolerance removed likewise: sliverTriangles;
 /// - orientation made consistent across two-sided edges: misorientedTriangles. Where that was needed, closed components
-///   that are not the wall of a cavity are turned outwards, elsewhere they are reported only: inwardShells; where a piece has one side only, it stays inconsistent along a cut:
-///   oneSidedEdges;
+///   that are not the wall of a cavity are turned outwards, elsewhere they are reported only: inwardShells; where a
+///   piece has one side only, it stays inconsistent along a cut: oneSidedEdges;
 /// - a non-manifold edge that a sheet meets in its middle halved: loneNonManifoldEdges;
 /// - edges with more than two triangles and vertices where sheets touch in a point counted: nonManifoldEdges,
 ///   nonManifoldVertices. They stay; recoverBrep() cuts there;
