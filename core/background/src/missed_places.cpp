@@ -43,7 +43,7 @@ std::vector<VertexId> spacedVertices(const Surface& surface, double width) {
   for (std::size_t i = 0; i < entries.size(); ++i) {
     if (i == 0 || entries[i].first != entries[i - 1].first) spaced.emplace_back(entries[i].second);
   }
-  std::sort(spaced.begin(), spaced.end(), [](VertexId a, VertexId b) { return a.value < b.value; });
+  std::sort(spaced.begin(), spaced.end());
   return spaced;
 }
 

@@ -5,6 +5,7 @@
 #include "operators.hpp"
 #include "qmcf/mesh/edit_mesh.hpp"
 #include "qmcf/mesh/element_shape.hpp"
+#include "qmcf/mesh/extract.hpp"
 #include "relaxation.hpp"
 #include "untangle.hpp"
 
@@ -13,31 +14,6 @@ namespace {
 
 /// Moves smaller than this, in element sizes, end the relaxation.
 constexpr double kStill = 1e-3;
-
-FaceMesh extract(const EditMesh& mesh, const FaceMesh& before) {
-  FaceMesh result;
-  IdMap<VertexId, std::int32_t> index(mesh.vertexCapacity(), kNone);
-  for (std::size_t i = 0; i < mesh.vertexCapacity(); ++i) {
-    const VertexId v(i);
-    if (!mesh.alive(v)) continue;
-    index[v] = static_cast<std::int32_t>(result.positions.size());
-    result.positions.push_back(mesh.position(v));
-    result.normals.push_back(mesh.normal(v));
-    result.locations.push_back(mesh.vertex(v).location);
-    result.patchVertex.push_back(i < before.patchVertex.size() ? before.patchVertex[i] : kNone);
-  }
-  for (std::size_t i = 0; i < mesh.faceCapacity(); ++i) {
-    const FaceId f(i);
-    if (mesh.kind(f) == FaceKind::removed) continue;
-    Element element{kNone, kNone, kNone, kNone};
-    const auto sides = mesh.sides(f);
-    for (std::size_t c = 0; c < 4; ++c) {
-      if (sides[c].valid()) element[c] = index[mesh.origin(sides[c])];
-    }
-    result.elements.push_back(element);
-  }
-  return result;
-}
 
 /// Quads with a worse shape are better off as two triangles.
 constexpr double kHopeless = 0.05;
@@ -110,7 +86,7 @@ Result<CleanupResult> cleanUp(const FaceMesh& mesh, const Patch& patch, const Tr
   const std::int64_t turnedOver = untangle(work, where);
   const std::int64_t cuts = options.quadsOnly ? 0 : cutInverted(work);
   if (cuts > 0) untangle(work, where);
-  CleanupResult result{extract(work, mesh), topology.statistics(), 1.0, {}};
+  CleanupResult result{extract(work, mesh.patchVertex), topology.statistics(), 1.0, {}};
   result.statistics.turnedOver = turnedOver;
   result.statistics.cuts = cuts;
   std::int32_t element = 0;

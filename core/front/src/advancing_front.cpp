@@ -125,10 +125,8 @@ bool Advance::advanceFrom(HalfedgeId h, int pass) {
   int wantedRight = front_.wantedQuads(following);
   for (const HalfedgeId apex : {h, following}) {
     if ((apex == h ? wantedLeft : wantedRight) != 0) continue;
-    const HalfedgeId before = front_.previousFront(apex);
     const VertexId kept = closeSeam(front_, apex, 0.5 * kLeastQuad[static_cast<std::size_t>(pass)]);
     if (!kept.valid()) continue;
-    static_cast<void>(before);
     ++statistics_.seams;
     makeDelaunay(front_, {kept});
     relaxAround({kept});

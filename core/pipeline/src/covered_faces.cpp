@@ -1,11 +1,10 @@
 #include "covered_faces.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <utility>
 
-#include "qmcf/spatial/triangle_bvh.hpp"
+#include "face_tree.hpp"
 
 namespace qmcf {
 namespace {
@@ -19,16 +18,9 @@ std::vector<std::int32_t> edgesOf(const BrepFace& face) {
   return edges;
 }
 
-TriangleBvh treeOf(const TriangleMesh& mesh, const BrepFace& face) {
-  std::vector<std::array<std::int32_t, 3>> triangles;
-  for (const std::int32_t t : face.triangles) triangles.push_back(mesh.triangles[static_cast<std::size_t>(t)]);
-  return {mesh.positions, triangles};
-}
-
-/// Whether the corners and centres of the upper face's triangles, and those of the lower one's, are near the other
-/// face.
+/// Whether the corners and centres of the upper face's triangles are near the lower face.
 bool isNear(const TriangleMesh& mesh, const BrepFace& upper, const BrepFace& lower, double distance) {
-  const TriangleBvh tree = treeOf(mesh, lower);
+  const TriangleBvh tree = faceTree(mesh, lower);
   for (const std::int32_t t : upper.triangles) {
     Vec3 centre;
     for (const std::int32_t v : mesh.triangles[static_cast<std::size_t>(t)]) {
@@ -84,16 +76,16 @@ void turnToFit(const Brep& brep, CoveredFaces& covered) {
   bool changed = true;
   for (int round = 0; changed && round < kMostRounds; ++round) {
     changed = false;
-    std::vector<double> agreement(brep.faces.size(), 0.0);
+    std::vector<double> agreeing(brep.faces.size(), 0.0);  // Length that agrees, less the length that does not.
     for (std::size_t e = 0; e < uses.size(); ++e) {
       if (uses[e].size() != 2 || uses[e][0].face == uses[e][1].face) continue;
       const bool agree = runs(uses[e][0]) != runs(uses[e][1]);
       for (const Use& use : uses[e]) {
-        agreement[static_cast<std::size_t>(use.face)] += agree ? brep.edges[e].length : -brep.edges[e].length;
+        agreeing[static_cast<std::size_t>(use.face)] += agree ? brep.edges[e].length : -brep.edges[e].length;
       }
     }
     for (std::size_t f = 0; f < brep.faces.size() && !changed; ++f) {
-      if (agreement[f] >= 0.0) continue;
+      if (agreeing[f] >= 0.0) continue;
       covered.turned[f] ^= 1U;
       changed = true;
     }

@@ -2,24 +2,19 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <utility>
 
+#include "face_tree.hpp"
 #include "qmcf/cleanup/cleanup.hpp"
 #include "qmcf/cleanup/subdivide.hpp"
 #include "qmcf/front/advancing_front.hpp"
 #include "qmcf/qmorph/qmorph.hpp"
 #include "qmcf/sizing/edge_curve.hpp"
-#include "qmcf/spatial/triangle_bvh.hpp"
 #include "too_coarse.hpp"
 
 namespace qmcf {
 namespace {
-
-TriangleBvh faceTree(const TriangleMesh& mesh, const BrepFace& face) {
-  std::vector<std::array<std::int32_t, 3>> triangles;
-  for (const std::int32_t t : face.triangles) triangles.push_back(mesh.triangles[static_cast<std::size_t>(t)]);
-  return TriangleBvh(mesh.positions, triangles);
-}
 
 FaceMesh trianglesOf(const Patch& patch) {
   FaceMesh mesh;
@@ -46,6 +41,7 @@ void count(MeshedFace& face) {
     ++(cornerCount(element) == 4 ? face.report.quads : face.report.triangles);
 }
 
+/// Where a front that nothing else starts is tried, as shares of the triangles.
 constexpr std::array<double, 4> kSeedPlaces{0.0, 0.37, 0.61, 0.83};
 
 /// A division of an edge of the B-rep.
@@ -157,13 +153,15 @@ Result<MeshedFace> subdivideFace(const TriangleMesh& mesh, const Brep& brep, con
   const Patch& patch = prepared.patches[f];
   const TriangleBvh tree = faceTree(mesh, brep.faces[f]);
   IdMap<HalfedgeId, Vec3> middle(patch.surface.halfedgeCount());
+  std::vector<std::optional<EdgeCurve>> curves(brep.edges.size());
   for (const HalfedgeId h : IdRange<HalfedgeId>(patch.surface.halfedgeCount())) {
     if (!patch.surface.isBoundary(h)) continue;
     const Division division = divisionOf(patch, h, prepared.divided);
     const auto e = static_cast<std::size_t>(division.edge);
     const auto& arc = prepared.divided.edges[e].arcLength;
     const double s = 0.5 * (arc[division.index] + arc[division.index + 1]);
-    middle[h] = edgeCurve(mesh, brep.edges[e]).at(s);
+    if (!curves[e]) curves[e] = edgeCurve(mesh, brep.edges[e]);
+    middle[h] = curves[e]->at(s);
   }
   SubdividedFace cut = subdivide(face.mesh, patch, tree, middle);
   CleanupOptions options;

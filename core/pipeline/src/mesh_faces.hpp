@@ -14,8 +14,8 @@ struct MeshedFace {
   std::vector<SizeLimit> tooCoarse;  ///< Where the first step failed, with the size that may help.
 };
 
-/// Advancing front and clean-up; if an element is turned over in the result, the paired triangles of the background;
-/// failing that, the triangles themselves (H 8 of docs/algorithm.md). Errors: cancelled.
+/// Advancing front and clean-up; if the front got stuck or left an element that no solver takes, the paired triangles
+/// of the background; failing that, the triangles themselves (H8 of docs/algorithm.md). Errors: cancelled.
 Result<MeshedFace> meshFace(const TriangleMesh& mesh, const Brep& brep, const PreparedFaces& prepared,
                             std::int32_t face, const MeshOptions& options, Progress& progress);
 
