@@ -1,4 +1,5 @@
 import { defineConfig } from '@playwright/test';
+import { chromiumOptions } from './web/scripts/chromium.mjs';
 
 const serve = (port: number) => `npx --no-install vite preview web --port ${port} --strictPort --logLevel warn`;
 
@@ -17,20 +18,7 @@ export default defineConfig({
     baseURL: isolatedPage,
     viewport: { width: 1440, height: 900 },
     acceptDownloads: true,
-    // Debian's Chromium, drawing in software, without the calls home that a closed network would refuse.
-    launchOptions: {
-      executablePath: process.env['CHROMIUM'] ?? '/usr/bin/chromium',
-      args: [
-        '--no-sandbox',
-        '--use-angle=swiftshader',
-        '--enable-unsafe-swiftshader',
-        '--disable-background-networking',
-        '--disable-component-update',
-        '--disable-sync',
-        '--disable-quic',
-        '--no-first-run',
-      ],
-    },
+    launchOptions: chromiumOptions,
   },
   webServer: [
     { command: serve(4273), url: isolatedPage },

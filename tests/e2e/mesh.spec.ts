@@ -41,6 +41,19 @@ test('a part becomes a valid mesh, the same as from the command line', async ({ 
   expect(errors).toEqual([]);
 });
 
+test('what a mesh is said to be stays said when the field follows its size', async ({ page }) => {
+  await page.goto('./');
+  const app = new App(page);
+  await app.openSample('torus.obj');
+  await app.crosses.check();
+  await expect(app.status).toHaveText(/Cross field with \d+ singularit/);
+  const free = await app.legend('Free crosses');
+  await app.mesh(600);
+  // The field of the new size has another number of crosses.
+  await expect.poll(() => app.legend('Free crosses')).not.toBe(free);
+  await expect(app.status).toHaveText(/ quads? .*in .* s\.$/);
+});
+
 test('size and count follow each other, and the size asked for is the size used', async ({ page }) => {
   await page.goto('./');
   const app = new App(page);

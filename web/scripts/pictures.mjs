@@ -8,19 +8,10 @@ import { basename, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { chromium, expect } from '@playwright/test';
 import { preview } from 'vite';
+import { chromiumOptions } from './chromium.mjs';
 
 /** Drawing in software on a busy machine is slow. */
 const patience = { timeout: 150_000 };
-const browserArguments = [
-  '--no-sandbox',
-  '--use-angle=swiftshader',
-  '--enable-unsafe-swiftshader',
-  '--disable-background-networking',
-  '--disable-component-update',
-  '--disable-sync',
-  '--disable-quic',
-  '--no-first-run',
-];
 
 /** What is done before each picture, in this order. */
 const views = {
@@ -87,7 +78,7 @@ if (!model || !folder || sizes.some((size) => !/^\d+x\d+$/.test(size))) {
 }
 mkdirSync(folder, { recursive: true });
 const server = await preview({ root: fileURLToPath(new URL('..', import.meta.url)), logLevel: 'warn' });
-const browser = await chromium.launch({ executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium', args: browserArguments });
+const browser = await chromium.launch(chromiumOptions);
 try {
   for (const size of sizes.length > 0 ? sizes : ['1440x900', '390x844']) {
     await takePictures(browser, server.resolvedUrls.local[0], model, folder, size.split('x').map(Number));

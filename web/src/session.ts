@@ -147,6 +147,8 @@ export class Session {
       });
       return;
     }
+    // A field that only follows the size of the mesh just made says nothing: the mesh is what was asked for.
+    const said = state.view === 'mesh' && state.field ? state.status : undefined;
     await this.run('field', 'The cross field could not be computed', async (mesher, control) => {
       const start = performance.now();
       const result = await mesher.field(model.bytes, optionsOf(fieldSettings(settings)), control);
@@ -154,7 +156,7 @@ export class Session {
       const singular = format.counted(result.singularities.indices.length, 'singularity', 'singularities');
       this.store.update({
         field: { result, optionsKey: optionsKey(fieldSettings(settings)), seconds },
-        status: `Cross field with ${singular} in ${format.duration(seconds)}.`,
+        status: said ?? `Cross field with ${singular} in ${format.duration(seconds)}.`,
       });
     });
   }
