@@ -79,6 +79,9 @@ struct MeshResult {
   std::vector<FaceReport> faces;
   std::int64_t fieldSingularities = 0;  ///< 0 in a mode without a cross field.
   std::int64_t refinedPlaces = 0;  ///< Where elements of the size asked for could not follow the part: smaller there.
+  /// Whether the faces' meshes were relaxed together, across their edges; if not, because the mesh would not be valid.
+  bool relaxedTogether = true;
+  std::int64_t slidNodes = 0;  ///< Nodes that this moved along their edges by more than a tenth of the element size.
 };
 
 /// Repair and B-rep only; of the options, repair and featureAngle matter. Errors: as repair() and recoverBrep().
