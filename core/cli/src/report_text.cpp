@@ -227,8 +227,7 @@ std::string qualityText(const QualityReport& report) {
                      line("", "smallest angle " + distributionText(report.minAngle)) +
                      line("", "aspect ratio " + distributionText(report.aspectRatio)) +
                      line("", percent(report.regularShare) + " of the interior vertices are regular") +
-                     ledgerText(report.ledger) +
-                     fidelityText(report);
+                     ledgerText(report.ledger) + fidelityText(report);
   std::int64_t passed = 0;
   for (const ValidityCheck& check : report.checks) {
     passed += check.status == CheckStatus::pass ? 1 : 0;

@@ -10,8 +10,8 @@
 namespace qmcf::quality {
 namespace {
 
-/// The corners of all elements, numbered by element; those at one vertex of the sheets are one set. Sheets hang together
-/// through edges with two elements and nothing else.
+/// The corners of all elements, numbered by element; those at one vertex of the sheets are one set. Sheets hang
+/// together through edges with two elements and nothing else.
 class CutCorners {
  public:
   CutCorners(const std::vector<Element>& elements, const EdgeTable& table)

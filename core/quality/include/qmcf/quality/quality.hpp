@@ -92,8 +92,8 @@ struct LedgerEntry {
 ///   4 X = 4 V - 4 E + (4 Q + 3 T) + T = 4 V - 2 E - B + T.
 ///
 /// 2 E is the sum of the edges at each vertex. A vertex inside with f elements has f edges; one on the boundary, where
-/// its elements are one fan, has f + 1, two of which are of the boundary; loops of the boundary have as many vertices as
-/// edges, so B takes one more from each. What is left is an identity of whole numbers, for every such mesh:
+/// its elements are one fan, has f + 1, two of which are of the boundary; loops of the boundary have as many vertices
+/// as edges, so B takes one more from each. What is left is an identity of whole numbers, for every such mesh:
 ///
 ///   sum over inner vertices (4 - f) + sum over boundary vertices (2 - f) + T = 4 X.
 struct IndexLedger {
@@ -163,7 +163,8 @@ struct QualityOptions {
 /// Measures and validates. reference may be null: then there are no fidelity figures and the checks are those of
 /// validateMesh(). With it, defects that the reference has itself are allowed, and there are further checks:
 /// "boundary", "cracks", "tJunctions", "components", "euler", "indexLedger" (whether the ledger closes with the
-/// reference's Euler characteristic), "coverage" (area) and "facesTurnedOver" (against the reference's normals). The reference may be a soup: it is welded by exact position. Complexity O((n + m) log(n + m)).
+/// reference's Euler characteristic), "coverage" (area) and "facesTurnedOver" (against the reference's normals). The
+/// reference may be a soup: it is welded by exact position. Complexity O((n + m) log(n + m)).
 QualityReport measureQuality(const QuadMesh& mesh, const TriangleMesh* reference, const QualityOptions& options);
 
 }  // namespace qmcf
