@@ -49,6 +49,8 @@ export interface MeshOptions {
    * vertices within half an element; edges come first, and where lines contradict each other, the nearer one. Default none.
    */
   strokes?: readonly Stroke[] | undefined;
+  /** Of the native program, 1 to 256: faces worked on at a time. Ignored here; the mesh does not depend on it. */
+  threads?: number | undefined;
 }
 
 /** The names of all options, for interfaces that are made from them. */
@@ -65,6 +67,7 @@ export const meshOptionNames = [
   'alignNonManifold',
   'alignCurvature',
   'strokes',
+  'threads',
 ] as const satisfies readonly (keyof MeshOptions)[];
 
 /** Where a run is. */

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <numeric>
 #include <optional>
 #include <string>
 #include <utility>
@@ -10,6 +11,7 @@
 #include "covered_faces.hpp"
 #include "mesh_faces.hpp"
 #include "prepare.hpp"
+#include "qmcf/base/parallel.hpp"
 #include "too_coarse.hpp"
 
 namespace qmcf {
@@ -17,6 +19,7 @@ namespace {
 
 constexpr std::int64_t kDefaultQuads = 3000;
 constexpr std::int64_t kMostQuads = 10'000'000;
+constexpr std::int64_t kMostThreads = 256;
 
 MeshOptions withDefaults(MeshOptions options) {
   if (!options.size && !options.quads) options.quads = kDefaultQuads;
@@ -112,28 +115,52 @@ class MeshRun {
     std::vector<FaceReport> reports;
   };
 
+  /// Calls work(face, progress) for each of the faces that are not omitted, several at a time.
+  template <class Work>
+  std::optional<Error> forEachFace(const PreparedFaces& prepared, const std::vector<std::int32_t>& faces, Work work) {
+    std::vector<std::int32_t> meshed;
+    std::vector<double> costs;
+    for (const std::int32_t face : faces) {
+      const auto f = static_cast<std::size_t>(face);
+      if (covered_.below[f] != kNone) continue;
+      meshed.push_back(face);
+      costs.push_back(static_cast<double>(prepared.patches[f].surface.triangleCount()));
+    }
+    return parallelFor(costs, threadsOf(options_), progress_,
+                       [&](std::size_t i, Progress& progress) { return work(meshed[i], progress); });
+  }
+
   std::optional<Error> meshChanged(const PreparedFaces& prepared) {
     for (const std::int32_t face : prepared.changed) {
       const auto f = static_cast<std::size_t>(face);
-      if (covered_.below[f] != kNone) {
-        faces_[f] = omittedFace(face, covered_.below[f]);
-        continue;
-      }
-      auto meshed = meshFace(mesh_, brep_, prepared, face, options_, progress_);
-      if (!meshed) return meshed.error();
-      faces_[f] = std::move(meshed).value();
+      if (covered_.below[f] != kNone) faces_[f] = omittedFace(face, covered_.below[f]);
     }
-    return std::nullopt;
+    return forEachFace(prepared, prepared.changed, [&](std::int32_t face, Progress& progress) -> std::optional<Error> {
+      auto meshed = meshFace(mesh_, brep_, prepared, face, options_, progress);
+      if (!meshed) return meshed.error();
+      faces_[static_cast<std::size_t>(face)] = std::move(meshed).value();
+      return std::nullopt;
+    });
+  }
+
+  std::optional<Error> subdivideAll(const PreparedFaces& prepared, std::vector<MeshedFace>& faces) {
+    std::vector<std::int32_t> all(faces.size());
+    std::iota(all.begin(), all.end(), 0);
+    return forEachFace(prepared, all, [&](std::int32_t face, Progress& progress) -> std::optional<Error> {
+      const auto f = static_cast<std::size_t>(face);
+      auto cut = subdivideFace(mesh_, brep_, prepared, faces_[f], progress);
+      if (!cut) return cut.error();
+      faces[f] = std::move(cut).value();
+      return std::nullopt;
+    });
   }
 
   Result<Joined> join(const PreparedFaces& prepared) {
     std::vector<MeshedFace> faces = faces_;
+    if (options_.allQuad) {
+      if (const auto error = subdivideAll(prepared, faces)) return *error;
+    }
     for (std::size_t f = 0; f < faces.size(); ++f) {
-      if (options_.allQuad && covered_.below[f] == kNone) {
-        auto cut = subdivideFace(mesh_, brep_, prepared, faces_[f], progress_);
-        if (!cut) return cut.error();
-        faces[f] = std::move(cut).value();
-      }
       if (covered_.turned[f] != 0) turnRound(faces[f].mesh);
     }
     Joined joined{joinFaces(brep_, prepared, faces), {}};
@@ -189,6 +216,9 @@ std::optional<Error> validateOptions(const MeshOptions& options) {
   }
   if (!(options.gradation > 0.0 && options.gradation <= 1.0))
     return invalid("gradation must be above 0 and at most 1.");
+  if (options.threads && (*options.threads < 1 || *options.threads > kMostThreads)) {
+    return invalid("threads must be between 1 and 256.");
+  }
   for (const FieldStroke& stroke : options.strokes) {
     const double length = norm(stroke.to - stroke.from);  // NaN or infinite if any coordinate is.
     if (!(length > 0.0 && std::isfinite(length))) return invalid("Each of the strokes must join two different points.");
