@@ -164,7 +164,8 @@ class JointRelaxation {
     return {before, s[slider.index + 1]};
   }
 
-  /// Moves a node along its edge, in all faces, unless that makes an element or a chord worse. Returns whether it moved.
+  /// Moves a node along its edge, in all faces, unless that makes an element or a chord worse. Returns whether it
+  /// moved.
   bool slide(const Slider& slider) {
     const std::size_t node = nodeOf(slider);
     const std::vector<Occurrence>& occurrences = occurrences_[node];
@@ -189,7 +190,8 @@ class JointRelaxation {
       meshes_[at.face].setVertex(at.vertex, onFace(at, pointAt(curve, s + step)));
     }
     if (worstAround(occurrences) < std::min(kEnough, worst)) {
-      for (std::size_t i = 0; i < old.size(); ++i) meshes_[occurrences[i].face].setVertex(occurrences[i].vertex, old[i]);
+      for (std::size_t i = 0; i < old.size(); ++i)
+        meshes_[occurrences[i].face].setVertex(occurrences[i].vertex, old[i]);
       return false;
     }
     setPlace(slider, s + step);

@@ -8,7 +8,8 @@
 
 namespace qmcf {
 
-/// Relaxes the faces' meshes together, across the edges that they share, and moves the nodes on these. Errors: cancelled.
+/// Relaxes the faces' meshes together, across the edges that they share, and moves the nodes on these. Errors:
+/// cancelled.
 Result<std::int64_t> relaxJoint(const TriangleMesh& mesh, const Brep& brep, const PreparedFaces& prepared,
                                 std::vector<SharedFace>& faces, SharedNodes& shared, double sizeScale,
                                 Progress& progress);

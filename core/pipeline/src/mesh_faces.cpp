@@ -1,6 +1,7 @@
 #include "mesh_faces.hpp"
 
 #include <array>
+#include <cassert>
 #include <cstddef>
 #include <utility>
 
@@ -9,6 +10,8 @@
 #include "qmcf/cleanup/subdivide.hpp"
 #include "qmcf/front/advancing_front.hpp"
 #include "qmcf/qmorph/qmorph.hpp"
+#include "qmcf/quality/quality.hpp"
+#include "qmcf/topology/brep.hpp"
 #include "too_coarse.hpp"
 
 namespace qmcf {
@@ -36,6 +39,13 @@ FaceMesh trianglesOf(const Patch& patch) {
 void count(FaceReport& report, const FaceMesh& mesh) {
   report.quads = report.triangles = 0;
   for (const Element& element : mesh.elements) ++(cornerCount(element) == 4 ? report.quads : report.triangles);
+}
+
+/// Whether the ledger of a face's mesh closes with the Euler characteristic of the part's face, counted on the part.
+[[maybe_unused]] bool ledgerCloses(const FaceMesh& made, const TriangleMesh& mesh, const Brep& brep,
+                                   std::int32_t face) {
+  const IndexLedger ledger = indexLedger(made.positions, made.elements);
+  return ledger.closes() && ledger.sum() == 4 * faceSurface(mesh, brep, face).surface.eulerCharacteristic();
 }
 
 /// Where a front that nothing else starts is tried, as shares of the triangles.
@@ -100,10 +110,12 @@ Result<MeshedFace> meshFace(const TriangleMesh& mesh, const Brep& brep, const Pr
   for (std::size_t start = 0; isStuck && start < (brep.faces[f].loops.empty() ? kSeedPlaces.size() : 1); ++start) {
     front = advance(patch, prepared, tree, f, options.mode, kSeedPlaces[start], progress);
     if (!front) return front.error();
+    assert(ledgerCloses(front.value(), mesh, brep, face));
     isStuck = gotStuck(front.value(), patch);
   }
   auto cleaned = cleanUp(front.value(), patch, tree, CleanupOptions{}, progress);
   if (!cleaned) return cleaned.error();
+  assert(ledgerCloses(cleaned.value().mesh, mesh, brep, face));
   if (cleaned.value().degenerate.empty() && !isStuck) {
     result.mesh = std::move(cleaned.value().mesh);
     result.report.method = modeName(options.mode);
@@ -123,6 +135,7 @@ Result<MeshedFace> meshFace(const TriangleMesh& mesh, const Brep& brep, const Pr
     result.report.method = "triangles";
     result.report.reason += ", and so did pairing triangles";
   }
+  assert(ledgerCloses(result.mesh, mesh, brep, face));
   count(result.report, result.mesh);
   return result;
 }
@@ -153,6 +166,7 @@ Result<SharedFace> subdivideFace(const TriangleMesh& mesh, const Brep& brep, con
   options.sizeScale = 0.5;
   auto relaxed = cleanUp(cut.mesh, patch, tree, options, progress);
   if (!relaxed) return relaxed.error();
+  assert(ledgerCloses(relaxed.value().mesh, mesh, brep, face.report.face));
   SharedFace result = shareFace(face, prepared);
   result.mesh = std::move(relaxed.value().mesh);
   result.node.resize(result.mesh.positions.size(), kNone);

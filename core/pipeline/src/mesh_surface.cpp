@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <numeric>
 #include <optional>
 #include <string>
 #include <utility>
@@ -11,6 +12,7 @@
 #include "join_faces.hpp"
 #include "mesh_faces.hpp"
 #include "prepare.hpp"
+#include "qmcf/base/parallel.hpp"
 #include "too_coarse.hpp"
 
 namespace qmcf {
@@ -18,6 +20,7 @@ namespace {
 
 constexpr std::int64_t kDefaultQuads = 3000;
 constexpr std::int64_t kMostQuads = 10'000'000;
+constexpr std::int64_t kMostThreads = 256;
 
 MeshOptions withDefaults(MeshOptions options) {
   if (!options.size && !options.quads) options.quads = kDefaultQuads;
@@ -113,18 +116,45 @@ class MeshRun {
     std::vector<SizeLimit> limits;  ///< Where smaller elements may make it valid.
   };
 
+  /// Calls work(face, progress) for each of the faces that are not omitted, several at a time.
+  template <class Work>
+  std::optional<Error> forEachFace(const PreparedFaces& prepared, const std::vector<std::int32_t>& faces, Work work) {
+    std::vector<std::int32_t> meshed;
+    std::vector<double> costs;
+    for (const std::int32_t face : faces) {
+      const auto f = static_cast<std::size_t>(face);
+      if (covered_.below[f] != kNone) continue;
+      meshed.push_back(face);
+      costs.push_back(static_cast<double>(prepared.patches[f].surface.triangleCount()));
+    }
+    return parallelFor(costs, threadsOf(options_), progress_,
+                       [&](std::size_t i, Progress& progress) { return work(meshed[i], progress); });
+  }
+
   std::optional<Error> meshChanged(const PreparedFaces& prepared) {
     for (const std::int32_t face : prepared.changed) {
       const auto f = static_cast<std::size_t>(face);
-      if (covered_.below[f] != kNone) {
-        faces_[f] = omittedFace(face, covered_.below[f]);
-        continue;
-      }
-      auto meshed = meshFace(mesh_, brep_, prepared, face, options_, progress_);
-      if (!meshed) return meshed.error();
-      faces_[f] = std::move(meshed).value();
+      if (covered_.below[f] != kNone) faces_[f] = omittedFace(face, covered_.below[f]);
     }
-    return std::nullopt;
+    return forEachFace(prepared, prepared.changed, [&](std::int32_t face, Progress& progress) -> std::optional<Error> {
+      auto meshed = meshFace(mesh_, brep_, prepared, face, options_, progress);
+      if (!meshed) return meshed.error();
+      faces_[static_cast<std::size_t>(face)] = std::move(meshed).value();
+      return std::nullopt;
+    });
+  }
+
+  std::optional<Error> subdivideAll(const PreparedFaces& prepared, const SharedNodes& shared,
+                                    std::vector<SharedFace>& faces) {
+    std::vector<std::int32_t> all(faces.size());
+    std::iota(all.begin(), all.end(), 0);
+    return forEachFace(prepared, all, [&](std::int32_t face, Progress& progress) -> std::optional<Error> {
+      const auto f = static_cast<std::size_t>(face);
+      auto cut = subdivideFace(mesh_, brep_, prepared, faces_[f], shared, progress);
+      if (!cut) return cut.error();
+      faces[f] = std::move(cut).value();
+      return std::nullopt;
+    });
   }
 
   /// The faces' meshes as one. Relaxed together, unless that costs the mesh its validity.
@@ -138,17 +168,11 @@ class MeshRun {
 
   Result<Attempt> join(const PreparedFaces& prepared, bool together) {
     Attempt made;
-    SharedNodes shared =
-        options_.allQuad ? halvedNodes(mesh_, brep_, prepared.divided) : sharedNodes(prepared.divided);
+    SharedNodes shared = options_.allQuad ? halvedNodes(mesh_, brep_, prepared.divided) : sharedNodes(prepared.divided);
     std::vector<SharedFace> faces;
-    for (const MeshedFace& face : faces_) {
-      if (!options_.allQuad || covered_.below[faces.size()] != kNone) {
-        faces.push_back(shareFace(face, prepared));
-        continue;
-      }
-      auto cut = subdivideFace(mesh_, brep_, prepared, face, shared, progress_);
-      if (!cut) return cut.error();
-      faces.push_back(std::move(cut).value());
+    for (const MeshedFace& face : faces_) faces.push_back(shareFace(face, prepared));
+    if (options_.allQuad) {
+      if (const auto error = subdivideAll(prepared, shared, faces)) return *error;
     }
     if (together) {
       const auto slid = relaxJoint(mesh_, brep_, prepared, faces, shared, 1.0 / coarsening_, progress_);
@@ -220,6 +244,9 @@ std::optional<Error> validateOptions(const MeshOptions& options) {
   }
   if (!(options.gradation > 0.0 && options.gradation <= 1.0))
     return invalid("gradation must be above 0 and at most 1.");
+  if (options.threads && (*options.threads < 1 || *options.threads > kMostThreads)) {
+    return invalid("threads must be between 1 and 256.");
+  }
   for (const FieldStroke& stroke : options.strokes) {
     const double length = norm(stroke.to - stroke.from);  // NaN or infinite if any coordinate is.
     if (!(length > 0.0 && std::isfinite(length))) return invalid("Each of the strokes must join two different points.");

@@ -24,7 +24,8 @@ SharedNodes sharedNodes(const DividedEdges& divided);
 /// The same with one more node in the middle of each division.
 SharedNodes halvedNodes(const TriangleMesh& mesh, const Brep& brep, const DividedEdges& divided);
 
-/// The node that halves the division under a boundary half-edge of a patch. \pre shared comes from halvedNodes(divided).
+/// The node that halves the division under a boundary half-edge of a patch. \pre shared comes from
+/// halvedNodes(divided).
 std::int32_t halvingNode(const Patch& patch, HalfedgeId h, const DividedEdges& divided, const SharedNodes& shared);
 
 }  // namespace qmcf

@@ -96,8 +96,11 @@ TEST(RelaxTogether, KeepsANodeThatAChordNeeds) {
   JointEdge& edge = square.edges[0];
   const std::size_t third = 2;
   const Vec3 peak{static_cast<double>(third) / kCells + 0.02, -0.5 / kCells, 0.0};
-  edge.curve.points = {{0, 0, 0}, square.nodes[static_cast<std::size_t>(edge.nodes[1])], peak,
-                       square.nodes[static_cast<std::size_t>(edge.nodes[3])], {1, 0, 0}};
+  edge.curve.points = {{0, 0, 0},
+                       square.nodes[static_cast<std::size_t>(edge.nodes[1])],
+                       peak,
+                       square.nodes[static_cast<std::size_t>(edge.nodes[3])],
+                       {1, 0, 0}};
   edge.curve.arcLength = {0.0};
   for (std::size_t i = 1; i < edge.curve.points.size(); ++i) {
     edge.curve.arcLength.push_back(edge.curve.arcLength.back() +

@@ -40,6 +40,9 @@ struct MeshOptions {
   bool alignNonManifold = true;      ///< Field constraint: non-manifold edges.
   bool alignCurvature = true;        ///< Field constraint: principal curvature.
   std::vector<FieldStroke> strokes;  ///< Field constraint: lines to follow (FieldOptions::strokes); finite, not points.
+  /// Faces worked on at a time, 1 to 256. Default: as many as the machine has hardware threads. The mesh does not
+  /// depend on it. Ignored where the library is built without threads (WebAssembly).
+  std::optional<std::int64_t> threads;
 };
 
 /// How one face was meshed.
