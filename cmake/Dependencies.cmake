@@ -30,3 +30,9 @@ qmcf_header_library(fast_float HEADER fast_float/fast_float.h PACKAGE libfast-fl
 if(NOT EMSCRIPTEN)
   qmcf_header_library(cli11 HEADER CLI/CLI.hpp PACKAGE libcli11-dev)
 endif()
+# The system's threads; WebAssembly is built without.
+add_library(qmcf_threads INTERFACE)
+if(NOT EMSCRIPTEN)
+  find_package(Threads REQUIRED)
+  target_link_libraries(qmcf_threads INTERFACE Threads::Threads)
+endif()

@@ -173,7 +173,7 @@ std::optional<Error> assign(std::vector<FieldStroke>& option, std::string_view n
 template <class Visit>
 void forEachOption(MeshOptions& options, Visit visit) {
   auto& [size, quads, featureAngle, mode, allQuad, repair, gradation, alignBoundary, alignSharp, alignNonManifold,
-         alignCurvature, strokes] = options;
+         alignCurvature, strokes, threads] = options;
   visit("size", size);
   visit("quads", quads);
   visit("featureAngle", featureAngle);
@@ -186,6 +186,7 @@ void forEachOption(MeshOptions& options, Visit visit) {
   visit("alignNonManifold", alignNonManifold);
   visit("alignCurvature", alignCurvature);
   visit("strokes", strokes);
+  visit("threads", threads);
 }
 
 /// The error for a key that is no option's name, if there is one.

@@ -6,6 +6,7 @@ import { basename, dirname, join, resolve } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { parseArgs } from 'node:util';
 import { runMeasured } from './child.mjs';
+import { ledgerFault, readElements } from '../tools/lib/ledger.mjs';
 import { compareResults, resultTable, summaryLine } from './table.mjs';
 import { judgeMesh } from './verdict.mjs';
 
@@ -81,7 +82,8 @@ function findModels({ inputs, only, demands }) {
 async function measureModel(part, options) {
   const model = basename(part);
   const mesh = join(options.out, `${model}.quads.obj`);
-  const args = ['mesh', part, '-o', mesh, '--quads', String(options.quads), '--quiet', ...options.extra];
+  const report = join(options.out, `${model}.report.json`);
+  const args = ['mesh', part, '-o', mesh, '--report', report, '--quads', String(options.quads), '--quiet', ...options.extra];
   const run = await runMeasured(options.qmcf, args, options.timeout);
   const { seconds, cpuSeconds, peakMegabytes } = run;
   const result = { model, seconds, cpuSeconds, peakMegabytes, exit: run.exit };
@@ -91,8 +93,10 @@ async function measureModel(part, options) {
     return { ...result, verdict: VERDICT_OF_EXIT[run.exit] ?? 'FAILED', message: `exit ${run.exit}: ${run.stderr.trim().split('\n').pop()}` };
   }
   const { valid, ...figures } = await judgeMesh(options, part, mesh);
+  const fault = ledgerFault(JSON.parse(readFileSync(report, 'utf8')).quality, readElements(mesh));
+  if (fault) figures.failing.push(fault);
   if (options.pictures) await drawMesh(part, mesh);
-  return demand({ ...result, verdict: valid ? 'VALID' : 'INVALID', ...figures }, options.demands?.[model]);
+  return demand({ ...result, verdict: valid && !fault ? 'VALID' : 'INVALID', ...figures }, options.demands?.[model]);
 }
 
 /**

@@ -49,6 +49,8 @@ export interface MeshOptions {
    * vertices within half an element; edges come first, and where lines contradict each other, the nearer one. Default none.
    */
   strokes?: readonly Stroke[] | undefined;
+  /** Of the native program, 1 to 256: faces worked on at a time. Ignored here; the mesh does not depend on it. */
+  threads?: number | undefined;
 }
 
 /** The names of all options, for interfaces that are made from them. */
@@ -65,6 +67,7 @@ export const meshOptionNames = [
   'alignNonManifold',
   'alignCurvature',
   'strokes',
+  'threads',
 ] as const satisfies readonly (keyof MeshOptions)[];
 
 /** Where a run is. */
@@ -249,6 +252,38 @@ export interface ValidityCheck {
   readonly sentence: string;
 }
 
+/** The irregular vertices of one kind in a ledger. */
+export interface LedgerEntry {
+  /** At each of the vertices. */
+  readonly elements: number;
+  readonly vertices: number;
+  /** Of all of them together, in quarter turns. */
+  readonly index: number;
+}
+
+/**
+ * What irregular vertices, boundary and triangles of a mesh are worth in quarter turns: in all, four times its Euler
+ * characteristic. Sheets that meet in edges with more than two elements are cut apart there.
+ */
+export interface IndexLedger {
+  /** Inner vertices with other than four elements, worth 4 - elements each. */
+  readonly interior: readonly LedgerEntry[];
+  /** Vertices on the boundary with other than two elements, worth 2 - elements each. */
+  readonly boundary: readonly LedgerEntry[];
+  readonly interiorIndex: number;
+  readonly boundaryIndex: number;
+  /** Worth 1 each. */
+  readonly triangles: number;
+  readonly sum: number;
+  readonly sheets: number;
+  /** Four times the Euler characteristic of all sheets. */
+  readonly fourEuler: number;
+  /** The same of the input; null where the input leaves it undecided. */
+  readonly partFourEuler: number | null;
+  /** The sum is what mesh and input say. */
+  readonly closes: boolean;
+}
+
 /** What a mesh is and how good it is. Lengths are in units of the model, angles in degrees. */
 export interface QualityReport {
   readonly vertices: number;
@@ -265,6 +300,7 @@ export interface QualityReport {
   readonly boundaryEdges: number;
   readonly components: number;
   readonly eulerCharacteristic: number;
+  readonly ledger: IndexLedger;
   readonly area: number;
   /** This and the following ones are over the quads. */
   readonly scaledJacobian: Distribution;
@@ -322,6 +358,10 @@ export interface MeshReport {
   readonly fieldSingularities: number;
   /** Where elements of the size asked for could not follow the part, so that there are smaller ones. */
   readonly refinedPlaces: number;
+  /** Whether the faces' meshes were relaxed together, across their edges; if not, because the mesh would not be valid. */
+  readonly relaxedTogether: boolean;
+  /** Nodes that this moved along their edges by more than a tenth of the element size. */
+  readonly slidNodes: number;
 }
 
 /** The arrays of a quad-dominant mesh. */

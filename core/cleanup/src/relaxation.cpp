@@ -13,7 +13,8 @@ namespace {
 /// Weight of the size field against the element's own size.
 constexpr double kSizeWeight = 0.3;
 
-/// Where the regular polygon that fits the face of h best has its corner at origin(h), in the tangent plane of normal.
+}  // namespace
+
 Vec3 idealCorner(const EditMesh& mesh, HalfedgeId h, const Vec3& normal, double size) {
   const bool quad = mesh.cornerCount(mesh.face(h)) == 4;
   const int count = quad ? 4 : 3;
@@ -43,8 +44,6 @@ Vec3 idealCorner(const EditMesh& mesh, HalfedgeId h, const Vec3& normal, double 
   const double wanted = size * (quad ? 0.7071067811865476 : 0.6);
   return centre + arm * ((1.0 - kSizeWeight) + kSizeWeight * wanted / length);
 }
-
-}  // namespace
 
 EditMesh::Vertex projectVertex(const RelaxationTarget& target, const EditMesh::Vertex& from, const Vec3& position) {
   constexpr double kMinCosine = 0.3;

@@ -33,6 +33,8 @@ void addFieldOptions(CLI::App& app, MeshOptions& options, std::string& constrain
   app.add_option("--quads", options.quads, "Number of elements to aim at (3000 unless --size is given)")
       ->excludes(size);
   addPartOptions(app, options);
+  app.add_option("--threads", options.threads,
+                 "Faces worked on at a time, 1 to 256 (as many as the machine has threads)");
   app.add_option("--gradation", options.gradation, "Largest slope of the element size, up to 1")->capture_default_str();
   addAlignFlag(app, "boundary", options.alignBoundary, "boundary edges");
   addAlignFlag(app, "sharp", options.alignSharp, "sharp edges");

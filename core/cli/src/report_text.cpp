@@ -71,6 +71,26 @@ std::string distributionText(const Distribution& distribution) {
   return text;
 }
 
+/// "12 (14 of 3, 2 of 5)": what irregular vertices are worth, and how many have how many elements.
+std::string indexText(std::int64_t index, const std::vector<LedgerEntry>& entries) {
+  std::vector<std::string> kinds;
+  for (const LedgerEntry& entry : entries) {
+    kinds.push_back(std::to_string(entry.vertices) + " of " + std::to_string(entry.elements));
+  }
+  return std::to_string(index) + (kinds.empty() ? "" : " (" + join(kinds) + ")");
+}
+
+std::string ledgerText(const IndexLedger& ledger) {
+  std::string text = "irregular vertices " + indexText(ledger.interiorIndex, ledger.interior) + ", boundary " +
+                     indexText(ledger.boundaryIndex, ledger.boundary) + ", triangles " +
+                     std::to_string(ledger.triangles) + ", in all " + std::to_string(ledger.sum()) +
+                     "; four times the Euler characteristic " + std::to_string(ledger.fourEuler);
+  if (ledger.partFourEuler && *ledger.partFourEuler != ledger.fourEuler) {
+    text += ", of the part " + std::to_string(*ledger.partFourEuler);
+  }
+  return line("Ledger", text);
+}
+
 std::string fidelityText(const QualityReport& report) {
   std::string text;
   if (report.largestDistance)
@@ -199,6 +219,9 @@ std::string meshText(const MeshResult& result) {
     const std::string places = counted(result.refinedPlaces, "place", "places");
     reasons += line("", "smaller elements at " + places + " that elements of the size could not follow");
   }
+  if (!result.relaxedTogether) {
+    reasons += line("", "nodes stay where the edges were divided: moved along them they would make the mesh invalid");
+  }
   return text + line("Faces", join(parts)) + reasons;
 }
 
@@ -207,7 +230,7 @@ std::string qualityText(const QualityReport& report) {
                      line("", "smallest angle " + distributionText(report.minAngle)) +
                      line("", "aspect ratio " + distributionText(report.aspectRatio)) +
                      line("", percent(report.regularShare) + " of the interior vertices are regular") +
-                     fidelityText(report);
+                     ledgerText(report.ledger) + fidelityText(report);
   std::int64_t passed = 0;
   for (const ValidityCheck& check : report.checks) {
     passed += check.status == CheckStatus::pass ? 1 : 0;

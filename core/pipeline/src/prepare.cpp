@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "qmcf/base/parallel.hpp"
 #include "qmcf/qmorph/qmorph.hpp"
 
 namespace qmcf {
@@ -26,20 +27,6 @@ FieldOptions fieldOptions(const MeshOptions& options) {
   field.strokes = options.strokes;
   return field;
 }
-
-/// Passes a stage's own fraction on as the share of one face out of many.
-class FaceProgress final : public Progress {
- public:
-  FaceProgress(Progress& outer, std::size_t face, std::size_t count) : outer_(outer), face_(face), count_(count) {}
-  [[nodiscard]] bool report(Stage stage, double fraction) override {
-    return outer_.report(stage, (static_cast<double>(face_) + fraction) / static_cast<double>(count_));
-  }
-
- private:
-  Progress& outer_;
-  std::size_t face_;
-  std::size_t count_;
-};
 
 /// The stages up to the cross fields, as often as the faces ask for smaller elements.
 class Preparation {
@@ -136,23 +123,34 @@ class Preparation {
     }
   }
 
+  void take(std::size_t f, BackgroundResult background) {
+    tooCoarse_.insert(tooCoarse_.end(), background.tooCoarse.begin(), background.tooCoarse.end());
+    missed_.insert(missed_.end(), background.missed.begin(), background.missed.end());
+    changed_[f] = true;
+    done_[f] = background.tooCoarse.empty();
+    if (done_[f]) result_.patches[f] = std::move(background.patch);
+  }
+
   std::optional<Error> triangulate() {
     tooCoarse_.clear();
     missed_.clear();
-    const std::size_t faces = brep_.faces.size();
-    for (std::size_t f = 0; f < faces; ++f) {
+    std::vector<std::size_t> due;
+    std::vector<double> areas;
+    for (std::size_t f = 0; f < brep_.faces.size(); ++f) {
       if (done_[f]) continue;
-      FaceProgress faceProgress(progress_, f, faces);
-      auto built = buildBackground(mesh_, brep_, static_cast<std::int32_t>(f), result_.size, result_.divided,
-                                   background_, faceProgress);
-      if (!built) return built.error();
-      BackgroundResult& background = built.value();
-      tooCoarse_.insert(tooCoarse_.end(), background.tooCoarse.begin(), background.tooCoarse.end());
-      missed_.insert(missed_.end(), background.missed.begin(), background.missed.end());
-      changed_[f] = true;
-      done_[f] = background.tooCoarse.empty();
-      if (done_[f]) result_.patches[f] = std::move(background.patch);
+      due.push_back(f);
+      areas.push_back(brep_.faces[f].area);
     }
+    std::vector<BackgroundResult> built(due.size());
+    const auto build = [&](std::size_t i, Progress& progress) -> std::optional<Error> {
+      auto background = buildBackground(mesh_, brep_, static_cast<std::int32_t>(due[i]), result_.size, result_.divided,
+                                        background_, progress);
+      if (!background) return background.error();
+      built[i] = std::move(background).value();
+      return std::nullopt;
+    };
+    if (const auto error = parallelFor(areas, threadsOf(options_), progress_, build)) return *error;
+    for (std::size_t i = 0; i < due.size(); ++i) take(due[i], std::move(built[i]));
     std::sort(tooCoarse_.begin(), tooCoarse_.end());
     tooCoarse_.erase(std::unique(tooCoarse_.begin(), tooCoarse_.end()), tooCoarse_.end());
     return std::nullopt;
@@ -175,16 +173,22 @@ class Preparation {
   Result<PreparedFaces> finish() {
     std::vector<std::uint8_t> kinds;
     for (const BrepEdge& edge : brep_.edges) kinds.push_back(static_cast<std::uint8_t>(edge.kind));
-    const std::size_t faces = brep_.faces.size();
     result_.changed.clear();
-    for (std::size_t f = 0; f < faces; ++f) {
+    std::vector<double> costs;
+    for (std::size_t f = 0; f < brep_.faces.size(); ++f) {
       if (!changed_[f]) continue;
       result_.changed.push_back(static_cast<std::int32_t>(f));
-      if (options_.mode == Mode::qmorph) continue;
-      FaceProgress faceProgress(progress_, f, faces);
-      auto field = computeCrossField(result_.patches[f], kinds, fieldOptions(options_), faceProgress);
+      costs.push_back(static_cast<double>(result_.patches[f].surface.triangleCount()));
+    }
+    const auto solve = [&](std::size_t i, Progress& progress) -> std::optional<Error> {
+      const auto f = static_cast<std::size_t>(result_.changed[i]);
+      auto field = computeCrossField(result_.patches[f], kinds, fieldOptions(options_), progress);
       if (!field) return field.error();
       result_.fields[f] = std::move(field).value();
+      return std::nullopt;
+    };
+    if (options_.mode != Mode::qmorph) {
+      if (const auto error = parallelFor(costs, threadsOf(options_), progress_, solve)) return *error;
     }
     result_.minimumDivisions = minimum_;
     return std::move(result_);
@@ -205,6 +209,10 @@ class Preparation {
 };
 
 }  // namespace
+
+std::int32_t threadsOf(const MeshOptions& options) {
+  return options.threads ? static_cast<std::int32_t>(*options.threads) : hardwareThreads();
+}
 
 Result<PreparedFaces> prepareFaces(const TriangleMesh& mesh, const Brep& brep, const MeshOptions& options,
                                    Progress& progress) {

@@ -10,6 +10,9 @@
 
 namespace qmcf {
 
+/// The number of threads that the options ask for.
+std::int32_t threadsOf(const MeshOptions& options);
+
 /// Everything that the faces need before they can be meshed one by one.
 struct PreparedFaces {
   SizeField size;

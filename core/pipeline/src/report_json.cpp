@@ -22,6 +22,10 @@ Json toValue(const Distribution& distribution) {
 
 Json toValue(const std::optional<double>& number) { return number ? Json(*number) : Json(nullptr); }
 
+Json toValue(const LedgerEntry& entry) {
+  return {{"elements", entry.elements}, {"vertices", entry.vertices}, {"index", entry.index}};
+}
+
 Json toValue(const ValidityCheck& check) {
   return {{"name", check.name},
           {"status", checkStatusName(check.status)},
@@ -79,6 +83,19 @@ Json toArray(const std::vector<T>& values) {
   return array;
 }
 
+Json toValue(const IndexLedger& ledger) {
+  return {{"interior", toArray(ledger.interior)},
+          {"boundary", toArray(ledger.boundary)},
+          {"interiorIndex", ledger.interiorIndex},
+          {"boundaryIndex", ledger.boundaryIndex},
+          {"triangles", ledger.triangles},
+          {"sum", ledger.sum()},
+          {"sheets", ledger.sheets},
+          {"fourEuler", ledger.fourEuler},
+          {"partFourEuler", ledger.partFourEuler ? Json(*ledger.partFourEuler) : Json(nullptr)},
+          {"closes", ledger.closes()}};
+}
+
 Json counts(const InspectResult& result) {
   const Brep& brep = result.brep;
   std::size_t loops = 0;
@@ -119,6 +136,7 @@ Json toValue(const QualityReport& report) {
                {"boundaryEdges", report.boundaryEdges},
                {"components", report.components},
                {"eulerCharacteristic", report.eulerCharacteristic},
+               {"ledger", toValue(report.ledger)},
                {"area", report.area},
                {"scaledJacobian", toValue(report.scaledJacobian)},
                {"jacobianRatio", toValue(report.jacobianRatio)},
@@ -159,7 +177,9 @@ std::string toJson(const MeshResult& result) {
                {"faces", toArray(result.faces)},
                {"repair", toArray(result.input.repaired.items)},
                {"fieldSingularities", result.fieldSingularities},
-               {"refinedPlaces", result.refinedPlaces}});
+               {"refinedPlaces", result.refinedPlaces},
+               {"relaxedTogether", result.relaxedTogether},
+               {"slidNodes", result.slidNodes}});
 }
 
 }  // namespace qmcf

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "fidelity.hpp"
+#include "ledger.hpp"
 #include "qmcf/base/math.hpp"
 #include "reference_checks.hpp"
 #include "structural_checks.hpp"
@@ -203,6 +204,7 @@ QualityReport measureQuality(const QuadMesh& mesh, const TriangleMesh* reference
 
   QualityReport report;
   measureTopology(measured, report);
+  report.ledger = balance(mesh.elements, screening.usable, structure.edges);
   measureShape(measured, report);
   measureRegularity(measured, report);
   report.area = std::accumulate(areas.begin(), areas.end(), 0.0);
@@ -221,7 +223,8 @@ QualityReport measureQuality(const QuadMesh& mesh, const TriangleMesh* reference
       projected = projectCentres(measured, welded);
       measureFidelity(measured, welded, projected, options.featureAngle, report);
     }
-    addReferenceChecks(measured, welded, report.size, projected, checks);
+    report.ledger.partFourEuler = fourEulerOf(welded);
+    addReferenceChecks(measured, welded, report, projected, checks);
   }
   ValidityReport validity = std::move(checks).report();
   report.checks = std::move(validity.checks);

@@ -5,6 +5,7 @@
 #include <numeric>
 #include <string>
 
+#include "ledger.hpp"
 #include "structural_checks.hpp"
 
 namespace qmcf::quality {
@@ -72,6 +73,16 @@ void addSeams(const MeasuredMesh& measured, const Reference& reference, CheckLis
              "boundary vertices lie inside a boundary edge of other elements (vertices listed)");
 }
 
+void addLedger(const IndexLedger& ledger, CheckList& checks) {
+  if (!ledger.partFourEuler) {
+    checks.skip("indexLedger", "The part has non-manifold edges or pieces that don't quite meet.");
+    return;
+  }
+  checks.addCount("indexLedger", CheckStatus::fail, ledger.closes() ? 0 : 1,
+                  "Irregular vertices, boundary and triangles are worth " + std::to_string(ledger.sum()) +
+                      " quarter turns in all, not the part's " + std::to_string(*ledger.partFourEuler) + ".");
+}
+
 void addTopology(const MeasuredMesh& measured, const Reference& reference, CheckList& checks) {
   const bool clean = reference.structure.nonManifoldLength == 0.0 && pinchedVertices(reference.structure).empty() &&
                      !reference.seams.any;
@@ -97,12 +108,19 @@ void addCoverage(const MeasuredMesh& measured, const Reference& reference, Check
 
 }  // namespace
 
-void addReferenceChecks(const MeasuredMesh& measured, const Reference& reference, double size,
+std::optional<std::int64_t> fourEulerOf(const Reference& reference) {
+  if (reference.structure.nonManifoldLength > 0.0 || reference.seams.any) return std::nullopt;
+  const std::vector<std::uint8_t> all(reference.triangles.size(), 1);
+  return balance(reference.triangles, all, reference.structure.edges).fourEuler;
+}
+
+void addReferenceChecks(const MeasuredMesh& measured, const Reference& reference, const QualityReport& report,
                         const std::vector<ClosestPoint>& projected, CheckList& checks) {
   addManifold(measured, reference, checks);
-  addBoundary(measured, reference, size, checks);
+  addBoundary(measured, reference, report.size, checks);
   addSeams(measured, reference, checks);
   addTopology(measured, reference, checks);
+  addLedger(report.ledger, checks);
   addCoverage(measured, reference, checks);
   if (!reference.oriented) {
     checks.skip("facesTurnedOver", "The part is not consistently oriented itself.");

@@ -5,8 +5,11 @@
 #include <algorithm>
 #include <array>
 #include <functional>
+#include <optional>
+#include <utility>
 
 #include "qmcf/base/math.hpp"
+#include "qmcf/pipeline/report_json.hpp"
 #include "topology/shapes.hpp"
 
 namespace qmcf {
@@ -174,6 +177,68 @@ TEST(MeshSurface, GivesTheSameBytesEachTime) {
   EXPECT_TRUE(first.mesh.positions == second.mesh.positions);
 }
 
+/// Flat, curved, closed and refined faces.
+std::vector<TriangleMesh> severalParts() {
+  const std::vector<Vec2> l{{0, 0}, {3, 0}, {3, 1}, {1, 1}, {1, 3}, {0, 3}};
+  return {shapes::prism(l, {0.5, 0.5}), shapes::cylinder(48, 1, 4.0), shapes::torus(60, 24, 3.0, 1.0), spikedPlate()};
+}
+
+TEST(MeshSurface, GivesTheSameBytesWithAnyNumberOfThreads) {
+  for (const TriangleMesh& part : severalParts()) {
+    for (const Mode mode : {Mode::qmcf, Mode::qmorph}) {
+      std::optional<MeshResult> alone;
+      for (const std::int64_t threads : {1, 2, 7}) {
+        SilentProgress silent;
+        MeshOptions options;
+        options.quads = 500;
+        options.mode = mode;
+        options.allQuad = mode == Mode::qmcf;
+        options.threads = threads;
+        auto result = meshSurface(part, options, silent);
+        ASSERT_TRUE(result.ok());
+        if (!alone) {
+          alone = std::move(result).value();
+          continue;
+        }
+        EXPECT_EQ(result.value().mesh.elements, alone->mesh.elements);
+        EXPECT_TRUE(result.value().mesh.positions == alone->mesh.positions);
+        EXPECT_EQ(toJson(result.value()), toJson(*alone));
+      }
+    }
+  }
+}
+
+TEST(MeshSurface, CanBeCancelledAtAnyReportWithSeveralThreads) {
+  class StopAfter final : public Progress {
+   public:
+    explicit StopAfter(int calls) : left_(calls) {}
+    [[nodiscard]] bool report(Stage, double) override {
+      EXPECT_FALSE(stopped);
+      stopped = left_-- == 0;
+      return !stopped;
+    }
+    bool stopped = false;
+
+   private:
+    int left_;
+  };
+  const TriangleMesh part = shapes::prism({{0, 0}, {3, 0}, {3, 1}, {1, 1}, {1, 3}, {0, 3}}, {0.5, 0.5});
+  int finished = 0;
+  for (int calls = 0; finished < 3; calls += 9) {
+    StopAfter progress(calls);
+    MeshOptions options;
+    options.quads = 400;
+    options.threads = 4;
+    const auto result = meshSurface(part, options, progress);
+    EXPECT_EQ(result.ok(), !progress.stopped);
+    if (result.ok()) {
+      ++finished;
+    } else {
+      EXPECT_EQ(result.error().code, ErrorCode::cancelled);
+    }
+  }
+}
+
 TEST(MeshSurface, MeshesASingleTriangle) {
   TriangleMesh triangle;
   triangle.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
@@ -188,6 +253,7 @@ TEST(MeshSurface, RefusesOptionsOutOfRange) {
       [](MeshOptions& o) { o.quads = 0; },          [](MeshOptions& o) { o.quads = 20'000'000; },
       [](MeshOptions& o) { o.featureAngle = 0.0; }, [](MeshOptions& o) { o.featureAngle = 180.0; },
       [](MeshOptions& o) { o.gradation = 0.0; },    [](MeshOptions& o) { o.size = 1.0, o.quads = 10; },
+      [](MeshOptions& o) { o.threads = 0; },        [](MeshOptions& o) { o.threads = 257; },
   };
   for (std::size_t i = 0; i < mistakes.size(); ++i) {
     MeshOptions options;
@@ -217,6 +283,7 @@ TEST(MeshSurface, CanBeCancelledInEveryStage) {
     StopAt stop(stage);
     MeshOptions options;
     options.quads = 300;
+    options.threads = 1;  // Or another thread might report the stage, which is told to nobody.
     const auto result = meshSurface(shapes::cylinder(24, 4, 2.0), options, stop);
     EXPECT_TRUE(stop.reached) << stageName(stage);
     ASSERT_FALSE(result.ok()) << stageName(stage);

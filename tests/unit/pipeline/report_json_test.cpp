@@ -56,7 +56,14 @@ TEST(ReportJson, QualityReportKeepsItsFieldNames) {
   report.maxAngle.worst = 123.5;
   report.checks = {{"cracks", CheckStatus::warn, 2, {8, 9}, "Two vertices are apart."}};
   report.valid = true;
+  report.ledger.interior = {{3, 9, 9}, {5, 1, -1}};
+  report.ledger.interiorIndex = report.ledger.fourEuler = 8;
+  report.ledger.sheets = 1;
   const auto json = nlohmann::json::parse(toJson(report));
+  EXPECT_EQ(json["ledger"]["interior"][0], nlohmann::json({{"elements", 3}, {"vertices", 9}, {"index", 9}}));
+  EXPECT_EQ(json["ledger"]["sum"], 8);
+  EXPECT_EQ(json["ledger"]["partFourEuler"], nullptr);
+  EXPECT_EQ(json["ledger"]["closes"], true);
   EXPECT_EQ(json["quads"], 12);
   EXPECT_EQ(json["sharpRecall"], 0.75);
   EXPECT_TRUE(json["cornerRecall"].is_null());

@@ -11,7 +11,7 @@ enum class Stage : std::uint8_t { read, repair, topology, sizing, background, fi
 /// The stage's name; the same in C++, JSON and TypeScript.
 std::string_view stageName(Stage stage);
 
-/// Receives progress and can stop the run: one call does both.
+/// Receives progress and can stop the run: one call does both. It is called on the thread that started the run only.
 class Progress {
  public:
   Progress() = default;

@@ -40,6 +40,9 @@ struct MeshOptions {
   bool alignNonManifold = true;      ///< Field constraint: non-manifold edges.
   bool alignCurvature = true;        ///< Field constraint: principal curvature.
   std::vector<FieldStroke> strokes;  ///< Field constraint: lines to follow (FieldOptions::strokes); finite, not points.
+  /// Faces worked on at a time, 1 to 256. Default: as many as the machine has hardware threads. The mesh does not
+  /// depend on it. Ignored where the library is built without threads (WebAssembly).
+  std::optional<std::int64_t> threads;
 };
 
 /// How one face was meshed.
@@ -74,6 +77,9 @@ struct MeshResult {
   std::vector<FaceReport> faces;
   std::int64_t fieldSingularities = 0;  ///< 0 in a mode without a cross field.
   std::int64_t refinedPlaces = 0;  ///< Where elements of the size asked for could not follow the part: smaller there.
+  /// Whether the faces' meshes were relaxed together, across their edges; if not, because the mesh would not be valid.
+  bool relaxedTogether = true;
+  std::int64_t slidNodes = 0;  ///< Nodes that this moved along their edges by more than a tenth of the element size.
 };
 
 /// Repair and B-rep only; of the options, repair and featureAngle matter. Errors: as repair() and recoverBrep().

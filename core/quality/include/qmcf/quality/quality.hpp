@@ -74,6 +74,48 @@ struct ValidityReport {
 /// Elements that fail one of the second to fourth check are left out of the others.
 ValidityReport validateMesh(const QuadMesh& mesh);
 
+/// The irregular vertices of one kind in a ledger.
+struct LedgerEntry {
+  std::int32_t elements = 0;  ///< At each of the vertices.
+  std::int64_t vertices = 0;
+  std::int64_t index = 0;  ///< Of all of them together, in quarter turns.
+};
+
+/// The Gauss-Bonnet ledger of a mesh of quadrilaterals and triangles (A6 of docs/algorithm.md): what its irregular
+/// vertices, its boundary and its triangles are worth in quarter turns is four times its Euler characteristic.
+///
+/// The mesh is taken sheet by sheet: it is cut along the edges with more than two elements and apart where fans of
+/// elements share nothing but a vertex, so that every sheet is a surface with or without boundary, oriented or not. Let
+/// it have V vertices, E edges (B of them on the boundary), Q quads and T triangles; X = V - E + Q + T. Sides of
+/// elements are counted twice by inner edges and once by those of the boundary: 4 Q + 3 T = 2 E - B. So
+///
+///   4 X = 4 V - 4 E + (4 Q + 3 T) + T = 4 V - 2 E - B + T.
+///
+/// 2 E is the sum of the edges at each vertex. A vertex inside with f elements has f edges; one on the boundary, where
+/// its elements are one fan, has f + 1, two of which are of the boundary; loops of the boundary have as many vertices
+/// as edges, so B takes one more from each. What is left is an identity of whole numbers, for every such mesh:
+///
+///   sum over inner vertices (4 - f) + sum over boundary vertices (2 - f) + T = 4 X.
+struct IndexLedger {
+  std::vector<LedgerEntry> interior;  ///< Other than four elements, 4 - elements each; ascending.
+  std::vector<LedgerEntry> boundary;  ///< Other than two elements, 2 - elements each; ascending. Corners are here.
+  std::int64_t interiorIndex = 0;
+  std::int64_t boundaryIndex = 0;
+  std::int64_t triangles = 0;  ///< Worth +1 each: every triangle leaves an irregular vertex somewhere.
+  std::int64_t sheets = 0;
+  std::int64_t fourEuler = 0;  ///< 4 X of all sheets, from vertices, edges and elements.
+  /// The same of the reference, counted on its own triangles. Absent without one, and where it is undecidable: it has
+  /// edges with more than two triangles or pieces that don't quite meet.
+  std::optional<std::int64_t> partFourEuler;
+
+  [[nodiscard]] std::int64_t sum() const { return interiorIndex + boundaryIndex + triangles; }
+  /// The sum is what mesh and reference say.
+  [[nodiscard]] bool closes() const;
+};
+
+/// The ledger of a mesh by itself. Elements with repeated or missing corners take no part. O(n log n).
+IndexLedger indexLedger(const std::vector<Vec3>& positions, const std::vector<Element>& elements);
+
 /// What a mesh is and how good it is. Lengths are in units of the mesh, angles in degrees.
 struct QualityReport {
   std::int64_t vertices = 0;
@@ -87,6 +129,7 @@ struct QualityReport {
   std::int64_t boundaryEdges = 0;
   std::int64_t components = 0;           ///< Connected through vertices.
   std::int64_t eulerCharacteristic = 0;  ///< Vertices - edges + elements, unreferenced vertices excluded.
+  IndexLedger ledger;
   double area = 0.0;
   Distribution scaledJacobian;  ///< This and the following ones over the quads.
   Distribution jacobianRatio;
@@ -119,8 +162,9 @@ struct QualityOptions {
 
 /// Measures and validates. reference may be null: then there are no fidelity figures and the checks are those of
 /// validateMesh(). With it, defects that the reference has itself are allowed, and there are further checks:
-/// "boundary", "cracks", "tJunctions", "components", "euler", "coverage" (area) and "facesTurnedOver" (against the
-/// reference's normals). The reference may be a soup: it is welded by exact position. Complexity O((n + m) log(n + m)).
+/// "boundary", "cracks", "tJunctions", "components", "euler", "indexLedger" (whether the ledger closes with the
+/// reference's Euler characteristic), "coverage" (area) and "facesTurnedOver" (against the reference's normals). The
+/// reference may be a soup: it is welded by exact position. Complexity O((n + m) log(n + m)).
 QualityReport measureQuality(const QuadMesh& mesh, const TriangleMesh* reference, const QualityOptions& options);
 
 }  // namespace qmcf
