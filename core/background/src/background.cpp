@@ -38,8 +38,14 @@ void coarsen(Remesher& remesher, const RemeshMesh& mesh) {
   }
 }
 
+void renumber(Remesher& remesher, FaceBoundary& boundary) {
+  const std::vector<std::int32_t> newVertex = remesher.renumber();
+  for (std::int32_t& v : boundary.firstVertex) v = newVertex[index(v)];
+}
+
 /// Returns false when progress asked to stop.
-bool remesh(Remesher& remesher, const RemeshMesh& mesh, const BackgroundOptions& options, Progress& progress) {
+bool remesh(Remesher& remesher, const RemeshMesh& mesh, FaceBoundary& boundary, const BackgroundOptions& options,
+            Progress& progress) {
   remesher.updateSizes();
   remesher.removePoints();
   coarsen(remesher, mesh);
@@ -57,6 +63,8 @@ bool remesh(Remesher& remesher, const RemeshMesh& mesh, const BackgroundOptions&
   const int rounds = options.iterations + kExtraRounds;
   for (int round = 0; round < rounds; ++round) {
     if (!progress.report(Stage::background, static_cast<double>(round) / rounds)) return false;
+    // The first round makes most of the vertices.
+    if (round <= 1) renumber(remesher, boundary);
     remesher.updateSizes();
     const std::int32_t left = remesher.removePoints();
     if (round >= options.iterations && left == 0) break;
@@ -161,14 +169,15 @@ Result<BackgroundResult> buildBackground(const TriangleMesh& mesh, const Brep& b
   for (const SizeLimit& limit : size.limits) {
     if (limit.face == face) targets.limits.push_back(limit);
   }
-  Remesher remesher(work, reference, targets);
-  if (!remesh(remesher, work, options, progress)) return cancelledError();
+  Remesher remesher(work, reference, std::move(targets));
+  if (!remesh(remesher, work, boundary, options, progress)) return cancelledError();
 
   BackgroundResult result;
   result.tooCoarse = settlePoints(remesher, work, boundary);
   if (!result.tooCoarse.empty()) return result;
   remesher.flipEdges();
   remesher.smooth(kSmoothingSweeps);
+  renumber(remesher, boundary);
   remesher.updateSizes();
   Result<Patch> patch = makePatch(work, boundary, remesher.size(), face);
   if (!patch.ok()) return patch.error();

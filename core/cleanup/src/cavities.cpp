@@ -147,6 +147,7 @@ bool TopologicalCleanup::fillCavity(const std::vector<HalfedgeId>& loop, const s
   const bool covers =
       after.area >= kAreaKept * before.area && after.distance <= std::max(kNear * size, 1.5 * before.distance);
   if (covers && worstOf(mesh_, filled) >= worstBefore && meanShape(mesh_, filled) >= meanBefore - worth) {
+    touched_.insert(touched_.end(), moving.begin(), moving.end());
     mesh_.commit();
     ++statistics_.cavities;
     return true;

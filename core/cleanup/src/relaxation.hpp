@@ -24,8 +24,25 @@ Vec3 idealCorner(const EditMesh& mesh, HalfedgeId h, const Vec3& normal, double 
 
 /// One Gauss-Seidel sweep over the given vertices: each moves to the mean of the places that the best-fitting squares
 /// (equilateral triangles) of its elements give it, is projected, and stays where it was if an element around it would
-/// become worse than both before and `enough`. Boundary vertices don't move. Returns the largest move relative to the
-/// element size.
-double relax(EditMesh& mesh, const std::vector<VertexId>& vertices, const RelaxationTarget& target, double enough);
+/// become worse than both before and `enough`. Boundary vertices don't move.
+void relax(EditMesh& mesh, const std::vector<VertexId>& vertices, const RelaxationTarget& target, double enough);
+
+/// Sweeps over all vertices of a mesh that leave out those around which nothing has moved since they were visited last.
+class LazyRelaxation {
+ public:
+  LazyRelaxation(EditMesh& mesh, const RelaxationTarget& target, double enough);
+
+  /// To be called after a change of the mesh with the vertices that it touched; new ones are awake.
+  void wake(const std::vector<VertexId>& vertices);
+  /// As relax(), for the vertices that are awake, and commits. Returns false once nothing moves by more than a
+  /// two-hundredth of the element size.
+  bool sweep();
+
+ private:
+  EditMesh& mesh_;
+  const RelaxationTarget& target_;
+  double enough_;
+  IdMap<VertexId, char> awake_;
+};
 
 }  // namespace qmcf
