@@ -48,7 +48,9 @@ Vec3 idealCorner(const EditMesh& mesh, HalfedgeId h, const Vec3& normal, double 
 EditMesh::Vertex projectVertex(const RelaxationTarget& target, const EditMesh::Vertex& from, const Vec3& position) {
   constexpr double kMinCosine = 0.3;
   EditMesh::Vertex vertex;
-  vertex.position = target.face.closest(position, from.normal, kMinCosine).position;
+  const ClosestPoint closest = target.face.closest(position, from.normal, kMinCosine, from.facet);
+  vertex.position = closest.position;
+  vertex.facet = closest.triangle;
   vertex.location = walkToClosest(target.patch.surface, from.location.triangle, vertex.position);
   vertex.normal = normalized(interpolate(target.patch.surface, target.patch.normal, vertex.location));
   return vertex;
@@ -67,16 +69,16 @@ double relax(EditMesh& mesh, const std::vector<VertexId>& vertices, const Relaxa
       ++count;
     });
     const EditMesh::Vertex moved = projectVertex(target, vertex, sum / count);
-    const double before = worstShapeAround(mesh, v);
-    const std::size_t mark = mesh.mark();
     const double move = distance(moved.position, vertex.position) / size;
+    const std::size_t mark = mesh.mark();
     mesh.setVertex(v, moved);
     const double after = worstShapeAround(mesh, v);
-    if (after >= std::min(enough, before)) {
-      largest = std::max(largest, move);
-    } else {
+    if (!(after >= enough)) {
       mesh.rollback(mark);
+      if (!(after >= worstShapeAround(mesh, v))) continue;
+      mesh.setVertex(v, moved);
     }
+    largest = std::max(largest, move);
   }
   return largest;
 }

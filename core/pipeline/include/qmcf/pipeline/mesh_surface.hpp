@@ -54,11 +54,6 @@ struct FaceReport {
   std::int64_t triangles = 0;
 };
 
-struct StageTime {
-  Stage stage = Stage::read;
-  double seconds = 0.0;
-};
-
 /// The input as the later stages see it; enough to draw the part.
 struct InspectResult {
   RepairedMesh repaired;
