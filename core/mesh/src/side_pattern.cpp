@@ -65,8 +65,9 @@ SidePattern gridPattern(const std::vector<Vec3>& loop, const std::vector<int>& c
 }
 
 /// Spokes run from a split of each side to the middle; spoke i is as long as the end of side i - 1 and the start of
-/// side i + 1, so that the grids at the corners fit. Their lengths, or nothing if one is not a whole number above 0.
-std::optional<std::vector<int>> spokeLengths(const std::vector<int>& sides) {
+/// side i + 1, so that the grids at the corners fit. Their lengths, or nothing if one is not a whole number above 0;
+/// `lastMayVanish`: the middle may lie on the last side.
+std::optional<std::vector<int>> spokeLengths(const std::vector<int>& sides, bool lastMayVanish = false) {
   const std::size_t k = sides.size();
   std::vector<int> spokes(k);
   for (std::size_t i = 0; i < k; ++i) {
@@ -77,7 +78,8 @@ std::optional<std::vector<int>> spokeLengths(const std::vector<int>& sides) {
       sum += sign * sides[(i + 1 + 2 * step) % k];
       sign = -sign;
     }
-    if (sum < 2 || sum % 2 != 0) return std::nullopt;
+    const int least = lastMayVanish && i + 1 == k ? 0 : 2;
+    if (sum < least || sum % 2 != 0) return std::nullopt;
     spokes[i] = sum / 2;
   }
   return spokes;
@@ -87,18 +89,30 @@ SidePattern spokePattern(const std::vector<Vec3>& loop, const std::vector<int>& 
                          const std::vector<int>& spokes) {
   const auto count = static_cast<int>(loop.size());
   const std::size_t k = corners.size();
+  const auto before = [k](std::size_t i) { return (i + k - 1) % k; };
   SidePattern pattern;
   Vec3 middle;
-  for (const Vec3& p : loop) middle += p / static_cast<double>(count);
-  const int centre = count;
-  pattern.inner.push_back(middle);
-  const auto before = [k](std::size_t i) { return (i + k - 1) % k; };
+  int centre = count;
+  if (spokes.back() > 0) {
+    for (const Vec3& p : loop) middle += p / static_cast<double>(count);
+    pattern.inner.push_back(middle);
+  } else {
+    centre = (corners.back() + spokes[before(k - 1)]) % count;
+    middle = loop[index(centre)];
+  }
   // Per spoke its vertices from the side to the middle.
   std::vector<std::vector<int>> spoke(k);
   for (std::size_t i = 0; i < k; ++i) {
     const int split = (corners[i] + spokes[before(i)]) % count;
     spoke[i].push_back(split);
+    if (spokes[i] == 0) continue;
+    // Where the middle lies on the last side, the spokes beside it run along that.
+    const bool alongSide = spokes.back() == 0 && (i == 0 || i + 2 == k);
     for (int s = 1; s < spokes[i]; ++s) {
+      if (alongSide) {
+        spoke[i].push_back((split + (i == 0 ? count - s : s)) % count);
+        continue;
+      }
       const double t = static_cast<double>(s) / spokes[i];
       spoke[i].push_back(static_cast<int>(loop.size() + pattern.inner.size()));
       pattern.inner.push_back(loop[index(split)] * (1.0 - t) + middle * t);
@@ -109,6 +123,7 @@ SidePattern spokePattern(const std::vector<Vec3>& loop, const std::vector<int>& 
     // Along side i from its corner to the split, and back along side i - 1 to its split.
     const int width = spokes[before(i)];
     const int height = spokes[i];
+    if (width == 0 || height == 0) continue;
     Grid grid(width, height);
     for (int u = 0; u <= width; ++u) {
       grid.at(u, 0) = (corners[i] + u) % count;
@@ -204,21 +219,31 @@ double misfit(double length, int edges, double h) {
   return ratio * ratio;
 }
 
-/// The sum of misfits of a part's spokes, or nothing if it can't be filled around one vertex.
-std::optional<double> spokeMisfit(const Part& part, double h) {
-  const auto spokes = spokeLengths(sideLengths(part.count(), part.corners()));
+/// How a part can be filled around one vertex.
+struct Filling {
+  double misfit = 0.0;   ///< The sum over the spokes.
+  int centreOnCut = -1;  ///< How far along the part's cut the vertex lies; -1 if it lies inside.
+};
+
+/// Nothing if the part can't be filled so.
+std::optional<Filling> fillingOf(const Part& part, double h) {
+  const auto spokes = spokeLengths(sideLengths(part.count(), part.corners()), true);
   if (!spokes) return std::nullopt;
-  const Vec3 middle = part.middle();
-  double sum = 0.0;
   const std::size_t k = part.corners().size();
+  Filling filling;
+  Vec3 middle = part.middle();
+  if (spokes->back() == 0) {
+    filling.centreOnCut = (*spokes)[k - 2];
+    middle = part.position(part.corners().back() + filling.centreOnCut);
+  }
   for (std::size_t i = 0; i < k; ++i) {
     const int split = (part.corners()[i] + (*spokes)[(i + k - 1) % k]) % part.count();
-    sum += misfit(distance(part.position(split), middle), (*spokes)[i], h);
+    if ((*spokes)[i] > 0) filling.misfit += misfit(distance(part.position(split), middle), (*spokes)[i], h);
   }
-  return sum;
+  return filling;
 }
 
-/// Both parts of a cut loop, each filled around one vertex. \pre spokeMisfit() has a value for both
+/// Both parts of a cut loop, each filled around one vertex. \pre fillingOf() has a value for both
 SidePattern joinParts(const Outline& outline, const std::vector<int>& corners, const Cut& cut) {
   SidePattern joined;
   const Part first(outline, corners, cut, false);
@@ -228,7 +253,7 @@ SidePattern joinParts(const Outline& outline, const std::vector<int>& corners, c
     std::vector<Vec3> loop;
     for (int i = 0; i < part.count(); ++i) loop.push_back(part.position(i));
     const SidePattern filled =
-        spokePattern(loop, part.corners(), *spokeLengths(sideLengths(part.count(), part.corners())));
+        spokePattern(loop, part.corners(), *spokeLengths(sideLengths(part.count(), part.corners()), true));
     const int firstInner = outline.count() + static_cast<int>(joined.inner.size());
     for (std::array<int, 4> cell : filled.cells) {
       for (int& id : cell) id = id < part.count() ? part.id(id, other) : firstInner + id - part.count();
@@ -279,10 +304,14 @@ std::vector<SidePattern> fillSidesByTwo(const std::vector<Vec3>& loop, const std
         // Both parts need loops of even length.
         if (((cut.to - cut.from + count) % count + cut.length) % 2 != 0) ++cut.length;
         for (; cut.length <= longest; cut.length += 2) {
-          const auto first = spokeMisfit(Part(outline, corners, cut, false), outline.edge);
+          const auto first = fillingOf(Part(outline, corners, cut, false), outline.edge);
           if (!first) continue;
-          const auto second = spokeMisfit(Part(outline, corners, cut, true), outline.edge);
-          if (second) cuts.emplace_back(*first + *second + misfit(length, cut.length, outline.edge), cut);
+          const auto second = fillingOf(Part(outline, corners, cut, true), outline.edge);
+          if (!second) continue;
+          // The parts run along the cut in opposite directions. Both middles in one place are one vertex.
+          const bool onCut = first->centreOnCut >= 0 && second->centreOnCut >= 0;
+          if (onCut && first->centreOnCut + second->centreOnCut == cut.length) continue;
+          cuts.emplace_back(first->misfit + second->misfit + misfit(length, cut.length, outline.edge), cut);
         }
       }
     }
