@@ -29,6 +29,7 @@ constexpr double kStretchWorth = 1.0;
 constexpr double kPromisedStretch = 6.5;
 constexpr double kPromisedLoss = 0.2;
 constexpr int kSettleSweeps = 12;
+constexpr int kRoughSweeps = 10;  ///< Of these, on the patch.
 /// What is not near enough after so many sweeps is given up: stretch worth a unit of energy then.
 constexpr int kEarlySweep = 2;
 constexpr double kEarlyStretch = 2.5;
@@ -174,7 +175,8 @@ bool TopologicalCleanup::fillCavity(const std::vector<HalfedgeId>& loop, const s
   if (triangles % 2 != 0 || energy <= (corners.size() == 4 ? 0 : 1)) return false;
   std::vector<Vec3> outline;
   for (const HalfedgeId h : loop) outline.push_back(mesh_.position(mesh_.origin(h)));
-  if (const auto pattern = fillSides(outline, corners)) return fillWith(*pattern, loop, energy - (corners.size() == 4 ? 0 : 1));
+  if (const auto pattern = fillSides(outline, corners))
+    return fillWith(*pattern, loop, energy - (corners.size() == 4 ? 0 : 1));
   if (energy <= kTwoEnergy) return false;
   const std::vector<SidePattern> patterns = fillSidesByTwo(outline, corners, kMostTries);
   return std::any_of(patterns.begin(), patterns.end(),
@@ -198,6 +200,8 @@ bool TopologicalCleanup::fillWith(const SidePattern& pattern, const std::vector<
   if (!(promise.meanShape >= meanBefore - kPromisedLoss)) return false;
   const Cover before = coverOf(mesh_, target_.face, cavity);
   const double size = std::sqrt(before.area / count);
+  RelaxationTarget rough = target_;
+  rough.onPatch = true;
   // The old inner vertices are good places to project from.
   std::vector<VertexId> old = cornersOf(mesh_, cavity);
   std::vector<EditMesh::Vertex> inner;
@@ -205,14 +209,14 @@ bool TopologicalCleanup::fillWith(const SidePattern& pattern, const std::vector<
     const auto nearest = std::min_element(old.begin(), old.end(), [&](VertexId a, VertexId b) {
       return squaredNorm(mesh_.position(a) - p) < squaredNorm(mesh_.position(b) - p);
     });
-    inner.push_back(projectVertex(target_, mesh_.vertex(*nearest), p));
+    inner.push_back(projectVertex(rough, mesh_.vertex(*nearest), p));
   }
   const std::size_t mark = mesh_.mark();
   const std::vector<FaceId> filled = mesh_.fill(loop, cavity, pattern.cells, inner);
   const std::vector<VertexId> moving = cornersOf(mesh_, filled);
   bool isSlim = true;
   for (int sweep = 0; sweep < kSettleSweeps && isSlim; ++sweep) {
-    relax(mesh_, moving, target_, kGoodShape);
+    relax(mesh_, moving, sweep < kRoughSweeps ? rough : target_, kGoodShape);
     const bool isLast = sweep + 1 == kSettleSweeps;
     if (!isLast && sweep != kEarlySweep) continue;
     const double worth = isLast ? kStretchWorth : kEarlyStretch;

@@ -181,8 +181,8 @@ class JointRelaxation {
     const double first = edges_[slider.edge].arcLength[slider.index];
     const double back = std::clamp(s - before - kShortest * (first - firstBefore), 0.0, kLongestStep * (s - before));
     const double ahead = std::clamp(after - s - kShortest * (firstAfter - first), 0.0, kLongestStep * (after - s));
-    const Vec3 tangent = normalized(pointAt(curve, s + kTangentReach * (after - s)) -
-                                    pointAt(curve, s - kTangentReach * (s - before)));
+    const Vec3 tangent =
+        normalized(pointAt(curve, s + kTangentReach * (after - s)) - pointAt(curve, s - kTangentReach * (s - before)));
     const double size = sizeAt(occurrences.front());
     const double step = std::clamp(dot(wanted(occurrences) - nodes_[node], tangent), -back, ahead);
     if (!(std::abs(step) > kStill * size)) return false;

@@ -318,7 +318,8 @@ std::vector<SidePattern> fillSidesByTwo(const std::vector<Vec3>& loop, const std
   }
   std::stable_sort(cuts.begin(), cuts.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   std::vector<SidePattern> patterns;
-  for (std::size_t i = 0; i < std::min(most, cuts.size()); ++i) patterns.push_back(joinParts(outline, corners, cuts[i].second));
+  for (std::size_t i = 0; i < std::min(most, cuts.size()); ++i)
+    patterns.push_back(joinParts(outline, corners, cuts[i].second));
   return patterns;
 }
 

@@ -138,13 +138,15 @@ TEST(SidePattern, FillsALensWithTwoThrees) {
   // Two arcs of eight edges.
   constexpr int kEdges = 8;
   std::vector<Vec3> loop;
-  for (int i = 0; i < kEdges; ++i) loop.push_back({-1.0 + 2.0 * i / kEdges, -0.7 * math::sin(math::kPi * i / kEdges), 0});
+  for (int i = 0; i < kEdges; ++i)
+    loop.push_back({-1.0 + 2.0 * i / kEdges, -0.7 * math::sin(math::kPi * i / kEdges), 0});
   for (int i = 0; i < kEdges; ++i) loop.push_back({1.0 - 2.0 * i / kEdges, 0.7 * math::sin(math::kPi * i / kEdges), 0});
   expectTwo(loop, {0, kEdges}, {3, 3});
 }
 
 TEST(SidePattern, HasNoTwoForOddLoopsAndOtherNumbersOfSides) {
-  for (const std::vector<int>& sides : std::vector<std::vector<int>>{{5, 5, 5, 6}, {5, 5, 5, 5}, {4, 4, 4}, {4, 4, 4, 4, 4}, {1, 1, 1, 1}}) {
+  for (const std::vector<int>& sides :
+       std::vector<std::vector<int>>{{5, 5, 5, 6}, {5, 5, 5, 5}, {4, 4, 4}, {4, 4, 4, 4, 4}, {1, 1, 1, 1}}) {
     const auto [loop, corners] = polygon(sides);
     EXPECT_TRUE(fillSidesByTwo(loop, corners, 5).empty()) << ::testing::PrintToString(sides);
   }

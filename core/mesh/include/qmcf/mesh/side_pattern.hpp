@@ -21,9 +21,9 @@ struct SidePattern {
 std::optional<SidePattern> fillSides(const std::vector<Vec3>& loop, const std::vector<int>& corners);
 
 /// Fills such a loop with 2, 4 or 6 corners by cutting it in two from side to side and filling each part around one
-/// vertex: two vertices with three quadrilaterals, one with three and one with five, or two with five. Four sides can be
-/// filled so whatever their lengths, if these have an even sum and leave room. The fillings whose lines are nearest to
-/// one length of edge, at most `most` of them, the best first.
+/// vertex: two vertices with three quadrilaterals, one with three and one with five, or two with five. Four sides can
+/// be filled so whatever their lengths, if these have an even sum and leave room. The fillings whose lines are nearest
+/// to one length of edge, at most `most` of them, the best first.
 std::vector<SidePattern> fillSidesByTwo(const std::vector<Vec3>& loop, const std::vector<int>& corners,
                                         std::size_t most);
 
