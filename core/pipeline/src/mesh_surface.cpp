@@ -1,6 +1,7 @@
 // The only place that sees every stage: bytes are read before and written after it.
 #include "qmcf/pipeline/mesh_surface.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <numeric>
@@ -55,6 +56,20 @@ MeshedFace omittedFace(std::int32_t face, std::int32_t below) {
   return omitted;
 }
 
+/// Coordinates relative to the smallest ones, in steps of a power of two of about 1 / 100,000 of the part.
+TraceScale traceScale(const TriangleMesh& mesh) {
+  constexpr double kSteps = 131072.0;
+  Vec3 low = mesh.positions.front();
+  Vec3 high = low;
+  for (const Vec3& p : mesh.positions) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+  }
+  int exponent = 0;
+  static_cast<void>(std::frexp(distance(low, high) / kSteps, &exponent));
+  return {low, std::ldexp(1.0, exponent)};
+}
+
 QualityOptions qualityOptions(const MeshOptions& options, double size) {
   QualityOptions quality;
   quality.featureAngle = options.featureAngle;
@@ -72,7 +87,9 @@ class MeshRun {
         options_(options),
         // Where all elements will be cut up, those before are twice as long.
         coarsening_(options.allQuad ? 2.0 : 1.0),
-        progress_(progress) {}
+        progress_(progress) {
+    if (options.trace) scale_ = traceScale(mesh_);
+  }
 
   Result<MeshResult> run() {
     auto preparation = prepareFaces(mesh_, brep_, options_, progress_);
@@ -97,6 +114,7 @@ class MeshRun {
         result_.mesh = std::move(joined.value().mesh);
         result_.quality = std::move(quality);
         result_.faces = std::move(joined.value().reports);
+        if (scale_) result_.trace = MeshTrace{*scale_, std::move(joined.value().traces)};
         describe(prepared);
       }
       limits = notBelow(limits, kLowestSize * base);
@@ -113,6 +131,7 @@ class MeshRun {
   struct Joined {
     QuadMesh mesh;
     std::vector<FaceReport> reports;
+    std::vector<FaceTrace> traces;
   };
 
   /// Calls work(face, progress) for each of the faces that are not omitted, several at a time.
@@ -136,7 +155,7 @@ class MeshRun {
       if (covered_.below[f] != kNone) faces_[f] = omittedFace(face, covered_.below[f]);
     }
     return forEachFace(prepared, prepared.changed, [&](std::int32_t face, Progress& progress) -> std::optional<Error> {
-      auto meshed = meshFace(mesh_, brep_, prepared, face, options_, progress);
+      auto meshed = meshFace(mesh_, brep_, prepared, face, options_, scale_, progress);
       if (!meshed) return meshed.error();
       faces_[static_cast<std::size_t>(face)] = std::move(meshed).value();
       return std::nullopt;
@@ -148,7 +167,7 @@ class MeshRun {
     std::iota(all.begin(), all.end(), 0);
     return forEachFace(prepared, all, [&](std::int32_t face, Progress& progress) -> std::optional<Error> {
       const auto f = static_cast<std::size_t>(face);
-      auto cut = subdivideFace(mesh_, brep_, prepared, faces_[f], progress);
+      auto cut = subdivideFace(mesh_, brep_, prepared, faces_[f], scale_, progress);
       if (!cut) return cut.error();
       faces[f] = std::move(cut).value();
       return std::nullopt;
@@ -163,8 +182,11 @@ class MeshRun {
     for (std::size_t f = 0; f < faces.size(); ++f) {
       if (covered_.turned[f] != 0) turnRound(faces[f].mesh);
     }
-    Joined joined{joinFaces(brep_, prepared, faces), {}};
-    for (const MeshedFace& face : faces) joined.reports.push_back(face.report);
+    Joined joined{joinFaces(brep_, prepared, faces), {}, {}};
+    for (MeshedFace& face : faces) {
+      joined.reports.push_back(std::move(face.report));
+      if (scale_) joined.traces.push_back(std::move(face.trace));
+    }
     return joined;
   }
 
@@ -193,6 +215,7 @@ class MeshRun {
   MeshOptions options_;
   double coarsening_;
   Progress& progress_;
+  std::optional<TraceScale> scale_;  ///< Of the trace, if one is asked for.
   CoveredFaces covered_;
   std::vector<MeshedFace> faces_;
 };

@@ -118,14 +118,15 @@ TEST(ParallelFor, StopsAllPiecesWhenTheCallerDoes) {
   for (const std::int32_t threads : kThreadCounts) {
     Watcher watcher(0.2);
     std::atomic<int> finished{0};
-    const auto error = parallelFor(std::vector<double>(50, 1.0), threads, watcher, [&](std::size_t, Progress& progress) {
-      for (int step = 0; step <= 1000; ++step) {
-        toil(100);
-        if (!progress.report(Stage::field, step / 1000.0)) return std::optional<Error>(cancelledError());
-      }
-      ++finished;
-      return std::optional<Error>();
-    });
+    const auto error =
+        parallelFor(std::vector<double>(50, 1.0), threads, watcher, [&](std::size_t, Progress& progress) {
+          for (int step = 0; step <= 1000; ++step) {
+            toil(100);
+            if (!progress.report(Stage::field, step / 1000.0)) return std::optional<Error>(cancelledError());
+          }
+          ++finished;
+          return std::optional<Error>();
+        });
     ASSERT_TRUE(error);
     EXPECT_EQ(error->code, ErrorCode::cancelled);
     EXPECT_LT(finished, 50);

@@ -18,9 +18,9 @@ std::int32_t hardwareThreads();
 /// another piece reads or writes. Its Progress is its own; what it reports becomes its share of the whole.
 using IndexedWork = std::function<std::optional<Error>(std::size_t index, Progress& progress)>;
 
-/// Calls work(i, …) once for each i in [0, costs.size()), up to `threads` (>= 1) at a time, the dearest first; costs are
-/// relative and at least 0. The calling thread works along, and `progress` is called by it alone, with fractions that
-/// never fall within a stage.
+/// Calls work(i, …) once for each i in [0, costs.size()), up to `threads` (>= 1) at a time, the dearest first; costs
+/// are relative and at least 0. The calling thread works along, and `progress` is called by it alone, with fractions
+/// that never fall within a stage.
 ///
 /// What is returned does not depend on the number of threads: nothing if all succeeded, else the error of the smallest
 /// index that failed, whichever came first; pieces with larger indices are stopped or left out. Once progress asked to

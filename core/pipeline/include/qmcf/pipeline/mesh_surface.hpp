@@ -11,6 +11,7 @@
 #include "qmcf/field/cross_field.hpp"
 #include "qmcf/mesh/patch.hpp"
 #include "qmcf/mesh/quad_mesh.hpp"
+#include "qmcf/mesh/trace.hpp"
 #include "qmcf/mesh/triangle_mesh.hpp"
 #include "qmcf/quality/quality.hpp"
 #include "qmcf/topology/brep.hpp"
@@ -43,6 +44,7 @@ struct MeshOptions {
   /// Faces worked on at a time, 1 to 256. Default: as many as the machine has hardware threads. The mesh does not
   /// depend on it. Ignored where the library is built without threads (WebAssembly).
   std::optional<std::int64_t> threads;
+  bool trace = false;  ///< Record how each face was meshed, step by step: MeshResult::trace.
 };
 
 /// How one face was meshed.
@@ -73,6 +75,12 @@ struct FieldResult {
   std::vector<CrossField> fields;  ///< One per patch.
 };
 
+/// How the faces were meshed.
+struct MeshTrace {
+  TraceScale scale;              ///< Of the coordinates.
+  std::vector<FaceTrace> faces;  ///< Per face of the B-rep; without steps where it is omitted.
+};
+
 /// A mesh and everything a person should know about it.
 struct MeshResult {
   InspectResult input;
@@ -82,6 +90,7 @@ struct MeshResult {
   std::vector<FaceReport> faces;
   std::int64_t fieldSingularities = 0;  ///< 0 in a mode without a cross field.
   std::int64_t refinedPlaces = 0;  ///< Where elements of the size asked for could not follow the part: smaller there.
+  std::optional<MeshTrace> trace;  ///< If it was asked for.
 };
 
 /// Repair and B-rep only; of the options, repair and featureAngle matter. Errors: as repair() and recoverBrep().
