@@ -157,6 +157,9 @@ test('mesh writes a mesh that check finds valid, with report and summary', () =>
   const report = JSON.parse(get('out.json'));
   assert.equal(report.size, 0.25);
   assert.equal(report.quality.valid, true);
+  const stages = ['read', 'repair', 'topology', 'sizing', 'background', 'field', 'front', 'cleanup', 'quality', 'write'];
+  assert.deepEqual(Object.keys(report.seconds), stages);
+  for (const seconds of Object.values(report.seconds)) assert.ok(seconds >= 0 && seconds < 60);
   assert.equal(get('out.obj').match(/^f /gm).length, report.quality.quads + report.quality.triangles);
 
   const check = qmcf('check', 'out.obj', '--ref', 'cube.obj');

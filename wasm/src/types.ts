@@ -358,6 +358,10 @@ export interface MeshReport {
   readonly fieldSingularities: number;
   /** Where elements of the size asked for could not follow the part, so that there are smaller ones. */
   readonly refinedPlaces: number;
+  /** Whether the faces' meshes were relaxed together, across their edges; if not, because the mesh would not be valid. */
+  readonly relaxedTogether: boolean;
+  /** Nodes that this moved along their edges by more than a tenth of the element size. */
+  readonly slidNodes: number;
 }
 
 /** The arrays of a quad-dominant mesh. */

@@ -64,39 +64,35 @@ std::size_t triangleCount(const EditMesh& mesh, const std::vector<FaceId>& faces
 }  // namespace
 
 /// Elements that the cavity would have to have at each vertex of its loop for the vertex to be regular.
-std::vector<int> TopologicalCleanup::wantedInside(const std::vector<HalfedgeId>& loop,
-                                                  const std::vector<FaceId>& cavity) const {
+std::vector<int> TopologicalCleanup::wantedInside(const std::vector<HalfedgeId>& loop) const {
   std::vector<int> wanted;
+  wanted.reserve(loop.size());
   for (const HalfedgeId h : loop) {
     const VertexId v = mesh_.origin(h);
-    int inside = 0;
-    mesh_.forEachOutgoing(v, [&](HalfedgeId out) { inside += containsFace(cavity, mesh_.face(out)) ? 1 : 0; });
-    wanted.push_back(inside - excess(v));
+    wanted.push_back(cavity_.countAround(mesh_, v) - excess(v));
   }
   return wanted;
 }
 
-/// Adds the faces around the vertices. Returns whether there were any.
-bool TopologicalCleanup::grow(std::vector<FaceId>& cavity, const std::vector<VertexId>& around) const {
-  const std::size_t before = cavity.size();
+/// Adds the faces around the vertices to the cavity. Returns whether there were any.
+bool TopologicalCleanup::grow(const std::vector<VertexId>& around) {
+  const std::size_t before = cavity_.size();
   for (const VertexId v : around) {
-    mesh_.forEachOutgoing(v, [&](HalfedgeId h) {
-      if (!containsFace(cavity, mesh_.face(h))) cavity.push_back(mesh_.face(h));
-    });
+    mesh_.forEachOutgoing(v, [&](HalfedgeId h) { cavity_.add(mesh_.face(h)); });
   }
-  return cavity.size() > before;
+  return cavity_.size() > before;
 }
 
 bool TopologicalCleanup::remeshCavity(VertexId seed) {
   if (!mesh_.alive(seed)) return false;
-  std::vector<FaceId> cavity;
-  grow(cavity, {seed});
+  cavity_.clear();
+  grow({seed});
   const int off = excess(seed);
-  if (allQuads(mesh_, cavity) && (mesh_.isBoundary(seed) ? off >= 0 : off == 0)) return false;
-  while (cavity.size() <= kLargestCavity) {
-    const auto loop = boundaryLoop(mesh_, cavity);
+  if (allQuads(mesh_, cavity_.faces()) && (mesh_.isBoundary(seed) ? off >= 0 : off == 0)) return false;
+  while (cavity_.size() <= kLargestCavity) {
+    const auto loop = cavity_.boundaryLoop(mesh_);
     if (!loop) return false;
-    const std::vector<int> wanted = wantedInside(*loop, cavity);
+    const std::vector<int> wanted = wantedInside(*loop);
     std::vector<VertexId> blocking;
     std::vector<VertexId> all;
     std::vector<int> corners;
@@ -106,17 +102,17 @@ bool TopologicalCleanup::remeshCavity(VertexId seed) {
       if (wanted[i] < 1 || wanted[i] > 2) blocking.push_back(all.back());
     }
     if (!blocking.empty()) {
-      if (!grow(cavity, blocking)) return false;
+      if (!grow(blocking)) return false;
       continue;
     }
-    if (fillCavity(*loop, cavity, corners)) return true;
-    if (!grow(cavity, all)) return false;
+    if (fillCavity(*loop, corners)) return true;
+    if (!grow(all)) return false;
   }
   return false;
 }
 
-bool TopologicalCleanup::fillCavity(const std::vector<HalfedgeId>& loop, const std::vector<FaceId>& cavity,
-                                    const std::vector<int>& corners) {
+bool TopologicalCleanup::fillCavity(const std::vector<HalfedgeId>& loop, const std::vector<int>& corners) {
+  const std::vector<FaceId>& cavity = cavity_.faces();
   int energy = 0;
   for (const VertexId v : cornersOf(mesh_, cavity)) energy += irregularity(mesh_.isBoundary(v), excess(v));
   const std::size_t triangles = triangleCount(mesh_, cavity);

@@ -7,18 +7,14 @@
 
 namespace qmcf {
 
-bool containsFace(const std::vector<FaceId>& faces, FaceId f) {
-  return std::find(faces.begin(), faces.end(), f) != faces.end();
-}
-
-std::optional<std::vector<HalfedgeId>> boundaryLoop(const EditMesh& mesh, const std::vector<FaceId>& faces) {
+std::optional<std::vector<HalfedgeId>> Cavity::boundaryLoop(const EditMesh& mesh) {
   const auto isBorder = [&](HalfedgeId h) {
     const HalfedgeId t = mesh.twin(h);
-    return !t.valid() || !containsFace(faces, mesh.face(t));
+    return !t.valid() || !contains(mesh.face(t));
   };
   std::size_t borders = 0;
   HalfedgeId first;
-  for (const FaceId f : faces) {
+  for (const FaceId f : faces_) {
     for (const HalfedgeId h : mesh.sides(f)) {
       if (!h.valid() || !isBorder(h)) continue;
       ++borders;
@@ -27,18 +23,23 @@ std::optional<std::vector<HalfedgeId>> boundaryLoop(const EditMesh& mesh, const 
   }
   if (!first.valid()) return std::nullopt;
   std::vector<HalfedgeId> loop;
-  std::vector<VertexId> vertices;
+  loop.reserve(borders);
+  onLoop_.clear();
   HalfedgeId h = first;
   do {
     loop.push_back(h);
-    const VertexId v = mesh.origin(h);
-    if (std::find(vertices.begin(), vertices.end(), v) != vertices.end()) return std::nullopt;
-    vertices.push_back(v);
+    if (!onLoop_.insert(mesh.origin(h))) return std::nullopt;
     h = mesh.next(h);
     while (!isBorder(h)) h = mesh.next(mesh.twin(h));
   } while (h != first);
   if (loop.size() != borders) return std::nullopt;
   return loop;
+}
+
+int Cavity::countAround(const EditMesh& mesh, VertexId v) const {
+  int count = 0;
+  mesh.forEachOutgoing(v, [&](HalfedgeId h) { count += contains(mesh.face(h)) ? 1 : 0; });
+  return count;
 }
 
 std::vector<VertexId> cornersOf(const EditMesh& mesh, const std::vector<FaceId>& faces) {

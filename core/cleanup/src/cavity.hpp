@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -7,10 +8,50 @@
 
 namespace qmcf {
 
-bool containsFace(const std::vector<FaceId>& faces, FaceId f);
+/// A set of ids that is emptied in constant time: made once, used for many small regions of one mesh.
+template <class Key>
+class IdSet {
+ public:
+  void clear() { ++now_; }
+  /// Returns whether the id is new.
+  bool insert(Key id) {
+    if (id.index() >= stamp_.size()) stamp_.resize(2 * id.index() + 1, 0);
+    const bool isNew = stamp_[id.index()] != now_;
+    stamp_[id.index()] = now_;
+    return isNew;
+  }
+  [[nodiscard]] bool contains(Key id) const { return id.index() < stamp_.size() && stamp_[id.index()] == now_; }
 
-/// The boundary of a set of faces as one loop without repeated vertices, or nothing.
-std::optional<std::vector<HalfedgeId>> boundaryLoop(const EditMesh& mesh, const std::vector<FaceId>& faces);
+ private:
+  std::vector<std::uint64_t> stamp_;
+  std::uint64_t now_ = 1;
+};
+
+/// Faces of a mesh that may be filled anew.
+class Cavity {
+ public:
+  void clear() {
+    faces_.clear();
+    inside_.clear();
+  }
+  /// Adds a face that is not there yet.
+  void add(FaceId f) {
+    if (inside_.insert(f)) faces_.push_back(f);
+  }
+  [[nodiscard]] bool contains(FaceId f) const { return inside_.contains(f); }
+  [[nodiscard]] std::size_t size() const { return faces_.size(); }
+  /// In the order in which they were added.
+  [[nodiscard]] const std::vector<FaceId>& faces() const { return faces_; }
+  /// The boundary as one loop without repeated vertices, or nothing.
+  [[nodiscard]] std::optional<std::vector<HalfedgeId>> boundaryLoop(const EditMesh& mesh);
+  /// Elements of the cavity around a vertex.
+  [[nodiscard]] int countAround(const EditMesh& mesh, VertexId v) const;
+
+ private:
+  std::vector<FaceId> faces_;
+  IdSet<FaceId> inside_;
+  IdSet<VertexId> onLoop_;
+};
 
 /// The vertices of the faces, ascending.
 std::vector<VertexId> cornersOf(const EditMesh& mesh, const std::vector<FaceId>& faces);

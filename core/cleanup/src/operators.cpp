@@ -1,6 +1,7 @@
 #include "operators.hpp"
 
 #include <algorithm>
+#include <optional>
 
 #include "cavity.hpp"
 #include "qmcf/mesh/element_shape.hpp"
@@ -60,16 +61,16 @@ bool TopologicalCleanup::settle(const std::vector<VertexId>& vertices, double le
 
 bool TopologicalCleanup::removeDoublet(VertexId v) {
   if (!mesh_.alive(v) || mesh_.isBoundary(v)) return false;
-  std::vector<FaceId> cavity;
-  mesh_.forEachOutgoing(v, [&](HalfedgeId h) { cavity.push_back(mesh_.face(h)); });
-  if (cavity.size() != 2) return false;
-  const auto loop = boundaryLoop(mesh_, cavity);
+  cavity_.clear();
+  mesh_.forEachOutgoing(v, [&](HalfedgeId h) { cavity_.add(mesh_.face(h)); });
+  if (cavity_.size() != 2) return false;
+  const auto loop = cavity_.boundaryLoop(mesh_);
   if (!loop || loop->size() < 3 || loop->size() > 4) return false;
   std::vector<VertexId> vertices;
   for (const HalfedgeId h : *loop) vertices.push_back(mesh_.origin(h));
   const std::size_t mark = mesh_.mark();
   const double before = worstAround(mesh_, vertices);
-  mesh_.fill(*loop, cavity, FaceKind::element);
+  mesh_.fill(*loop, cavity_.faces(), FaceKind::element);
   if (!settle(vertices, std::min(options_.leastShape, before), mark)) return false;
   ++statistics_.doublets;
   return true;
@@ -126,9 +127,9 @@ bool TopologicalCleanup::collapseDiagonal(HalfedgeId corner) {
   return true;
 }
 
-bool TopologicalCleanup::refill(const std::vector<FaceId>& cavity) {
-  if (!allQuads(mesh_, cavity)) return false;
-  const auto loop = boundaryLoop(mesh_, cavity);
+bool TopologicalCleanup::refill() {
+  if (!allQuads(mesh_, cavity_.faces())) return false;
+  const auto loop = cavity_.boundaryLoop(mesh_);
   if (!loop) return false;
   const auto length = static_cast<int>(loop->size());
   const std::vector<LoopFilling>& ways = loopFillings(length);
@@ -136,18 +137,19 @@ bool TopologicalCleanup::refill(const std::vector<FaceId>& cavity) {
   std::vector<VertexId> vertices;
   std::vector<int> outside;
   int energyBefore = 0;
-  for (const VertexId v : cornersOf(mesh_, cavity)) energyBefore += irregularity(mesh_.isBoundary(v), excess(v));
+  for (const VertexId v : cornersOf(mesh_, cavity_.faces())) {
+    energyBefore += irregularity(mesh_.isBoundary(v), excess(v));
+  }
   for (const HalfedgeId h : *loop) {
     const VertexId v = mesh_.origin(h);
     vertices.push_back(v);
-    int inside = 0;
-    mesh_.forEachOutgoing(v, [&](HalfedgeId out) { inside += containsFace(cavity, mesh_.face(out)) ? 1 : 0; });
-    outside.push_back(excess(v) - inside);
+    outside.push_back(excess(v) - cavity_.countAround(mesh_, v));
   }
-  const bool isPoor = worstOf(mesh_, cavity) < kPoor;
   std::vector<std::pair<int, std::size_t>> better;
+  std::optional<bool> isPoor;  // Known when first asked for: it takes longer than all the rest.
+  std::vector<int> count;
   for (std::size_t w = 0; w < ways.size(); ++w) {
-    std::vector<int> count = outside;
+    count = outside;
     count.push_back(ways[w].hasMiddle ? -4 : 0);
     for (const auto& cell : ways[w].cells) {
       for (const int i : cell) ++count[static_cast<std::size_t>(i)];
@@ -156,8 +158,10 @@ bool TopologicalCleanup::refill(const std::vector<FaceId>& cavity) {
     for (std::size_t i = 0; i < count.size(); ++i) {
       energy += irregularity(i < vertices.size() && mesh_.isBoundary(vertices[i]), count[i]);
     }
-    if (energy < energyBefore || (isPoor && energy == energyBefore)) better.emplace_back(energy, w);
+    if (energy == energyBefore && !isPoor) isPoor = worstOf(mesh_, cavity_.faces()) < kPoor;
+    if (energy < energyBefore || (energy == energyBefore && *isPoor)) better.emplace_back(energy, w);
   }
+  if (better.empty()) return false;
   std::sort(better.begin(), better.end());
   const double before = worstAround(mesh_, vertices);
   Vec3 centre;
@@ -167,7 +171,8 @@ bool TopologicalCleanup::refill(const std::vector<FaceId>& cavity) {
     const LoopFilling& way = ways[better[i].second];
     const std::size_t mark = mesh_.mark();
     const EditMesh::Vertex middle = projectVertex(target_, mesh_.vertex(vertices[0]), centre);
-    mesh_.fill(*loop, cavity, way.cells, way.hasMiddle ? std::vector{middle} : std::vector<EditMesh::Vertex>{});
+    mesh_.fill(*loop, cavity_.faces(), way.cells,
+               way.hasMiddle ? std::vector{middle} : std::vector<EditMesh::Vertex>{});
     const bool sameEnergy = better[i].first == energyBefore;
     if (settle(vertices, sameEnergy ? before + kWorthwhile : std::min(options_.leastShape, before), mark)) {
       ++statistics_.refills;
@@ -186,34 +191,37 @@ bool TopologicalCleanup::refillAround(VertexId v) {
     fan.push_back(mesh_.face(h));
     spokes.push_back(h);
   });
+  const auto refillFaces = [this](const std::vector<FaceId>& faces) {
+    cavity_.clear();
+    for (const FaceId f : faces) cavity_.add(f);
+    return refill();
+  };
   const bool closed = !mesh_.isBoundary(v);
-  if (closed && fan.size() <= 5 && refill(fan)) return true;
+  if (closed && fan.size() <= 5 && refillFaces(fan)) return true;
   for (std::size_t width : {std::size_t{2}, std::size_t{3}}) {
     if (fan.size() < width) break;
     for (std::size_t i = 0; i < fan.size(); ++i) {
       if (!closed && i + width > fan.size()) break;
-      std::vector<FaceId> cavity;
-      for (std::size_t k = 0; k < width; ++k) cavity.push_back(fan[(i + k) % fan.size()]);
-      if (refill(cavity)) return true;
+      cavity_.clear();
+      for (std::size_t k = 0; k < width; ++k) cavity_.add(fan[(i + k) % fan.size()]);
+      if (refill()) return true;
     }
   }
   // The fans of two irregular neighbours together.
   for (std::size_t i = 0; closed && i < fan.size(); ++i) {
     const VertexId other = mesh_.target(spokes[i]);
     if (mesh_.isBoundary(other) || excess(other) == 0) continue;
-    std::vector<FaceId> cavity = fan;
-    mesh_.forEachOutgoing(other, [&](HalfedgeId h) {
-      if (!containsFace(cavity, mesh_.face(h))) cavity.push_back(mesh_.face(h));
-    });
-    if (refill(cavity)) return true;
+    std::vector<FaceId> both = fan;
+    mesh_.forEachOutgoing(other, [&](HalfedgeId h) { both.push_back(mesh_.face(h)); });
+    if (refillFaces(both)) return true;
   }
   // Each quad of the vertex with its neighbours on the far side.
   for (const FaceId f : fan) {
     for (const HalfedgeId h : mesh_.sides(f)) {
       if (!h.valid() || !mesh_.twin(h).valid()) continue;
       const FaceId other = mesh_.face(mesh_.twin(h));
-      if (containsFace(fan, other)) continue;
-      if (refill({f, other})) return true;
+      if (std::find(fan.begin(), fan.end(), other) != fan.end()) continue;
+      if (refillFaces({f, other})) return true;
     }
   }
   return false;

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "cavity.hpp"
 #include "qmcf/cleanup/cleanup.hpp"
 #include "qmcf/mesh/edit_mesh.hpp"
 #include "relaxation.hpp"
@@ -34,14 +35,13 @@ class TopologicalCleanup {
   bool removeDoublet(VertexId v);
   bool pairTriangles(HalfedgeId h);
   bool collapseDiagonal(HalfedgeId corner);
-  bool refill(const std::vector<FaceId>& cavity);
+  /// Fills cavity_ anew if that is better.
+  bool refill();
   bool refillAround(VertexId v);
   bool remeshCavity(VertexId seed);
-  [[nodiscard]] std::vector<int> wantedInside(const std::vector<HalfedgeId>& loop,
-                                              const std::vector<FaceId>& cavity) const;
-  bool grow(std::vector<FaceId>& cavity, const std::vector<VertexId>& around) const;
-  bool fillCavity(const std::vector<HalfedgeId>& loop, const std::vector<FaceId>& cavity,
-                  const std::vector<int>& corners);
+  [[nodiscard]] std::vector<int> wantedInside(const std::vector<HalfedgeId>& loop) const;
+  bool grow(const std::vector<VertexId>& around);
+  bool fillCavity(const std::vector<HalfedgeId>& loop, const std::vector<int>& corners);
   /// Relaxes around the vertices and keeps the change since mark if no element there has a shape below `least`.
   bool settle(const std::vector<VertexId>& vertices, double least, std::size_t mark);
 
@@ -51,6 +51,7 @@ class TopologicalCleanup {
   const CleanupOptions& options_;
   CleanupStatistics statistics_;
   TraceRecorder* trace_;  ///< nullptr: nobody wants the history.
+  Cavity cavity_;         ///< The region being looked at.
 };
 
 }  // namespace qmcf

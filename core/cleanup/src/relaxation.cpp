@@ -13,7 +13,8 @@ namespace {
 /// Weight of the size field against the element's own size.
 constexpr double kSizeWeight = 0.3;
 
-/// Where the regular polygon that fits the face of h best has its corner at origin(h), in the tangent plane of normal.
+}  // namespace
+
 Vec3 idealCorner(const EditMesh& mesh, HalfedgeId h, const Vec3& normal, double size) {
   const bool quad = mesh.cornerCount(mesh.face(h)) == 4;
   const int count = quad ? 4 : 3;
@@ -44,12 +45,12 @@ Vec3 idealCorner(const EditMesh& mesh, HalfedgeId h, const Vec3& normal, double 
   return centre + arm * ((1.0 - kSizeWeight) + kSizeWeight * wanted / length);
 }
 
-}  // namespace
-
 EditMesh::Vertex projectVertex(const RelaxationTarget& target, const EditMesh::Vertex& from, const Vec3& position) {
   constexpr double kMinCosine = 0.3;
   EditMesh::Vertex vertex;
-  vertex.position = target.face.closest(position, from.normal, kMinCosine).position;
+  const ClosestPoint closest = target.face.closest(position, from.normal, kMinCosine, from.facet);
+  vertex.position = closest.position;
+  vertex.facet = closest.triangle;
   vertex.location = walkToClosest(target.patch.surface, from.location.triangle, vertex.position);
   vertex.normal = normalized(interpolate(target.patch.surface, target.patch.normal, vertex.location));
   return vertex;
@@ -68,16 +69,16 @@ double relax(EditMesh& mesh, const std::vector<VertexId>& vertices, const Relaxa
       ++count;
     });
     const EditMesh::Vertex moved = projectVertex(target, vertex, sum / count);
-    const double before = worstShapeAround(mesh, v);
-    const std::size_t mark = mesh.mark();
     const double move = distance(moved.position, vertex.position) / size;
+    const std::size_t mark = mesh.mark();
     mesh.setVertex(v, moved);
     const double after = worstShapeAround(mesh, v);
-    if (after >= std::min(enough, before)) {
-      largest = std::max(largest, move);
-    } else {
+    if (!(after >= enough)) {
       mesh.rollback(mark);
+      if (!(after >= worstShapeAround(mesh, v))) continue;
+      mesh.setVertex(v, moved);
     }
+    largest = std::max(largest, move);
   }
   return largest;
 }

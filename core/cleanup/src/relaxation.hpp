@@ -18,6 +18,10 @@ struct RelaxationTarget {
 /// The place on the face nearest to a position, with normal and location.
 EditMesh::Vertex projectVertex(const RelaxationTarget& target, const EditMesh::Vertex& from, const Vec3& position);
 
+/// Where the square (equilateral triangle) that fits the face of h best has its corner at origin(h), in the tangent
+/// plane of normal; size: the edge length wanted there.
+Vec3 idealCorner(const EditMesh& mesh, HalfedgeId h, const Vec3& normal, double size);
+
 /// One Gauss-Seidel sweep over the given vertices: each moves to the mean of the places that the best-fitting squares
 /// (equilateral triangles) of its elements give it, is projected, and stays where it was if an element around it would
 /// become worse than both before and `enough`. Boundary vertices don't move. Returns the largest move relative to the

@@ -10,6 +10,7 @@
 #include "qmcf/io/write.hpp"
 #include "qmcf/pipeline/report_json.hpp"
 #include "report_text.hpp"
+#include "stage_clock.hpp"
 
 namespace qmcf::cli {
 namespace {
@@ -35,9 +36,14 @@ WriteOptions groupNames(const Brep& brep) {
   return options;
 }
 
-/// The report with indentation: people look into it, too.
-std::string reportFile(const MeshResult& result) {
-  return nlohmann::ordered_json::parse(toJson(result)).dump(1) + "\n";
+/// The report with indentation: people look into it, too. It ends with the CPU seconds of each stage.
+std::string reportFile(const MeshResult& result, StageClock& clock) {
+  auto report = nlohmann::ordered_json::parse(toJson(result));
+  const auto seconds = clock.seconds();
+  for (std::size_t s = 0; s < seconds.size(); ++s) {
+    report["seconds"][std::string(stageName(static_cast<Stage>(s)))] = seconds[s];
+  }
+  return report.dump(1) + "\n";
 }
 
 }  // namespace
@@ -45,24 +51,26 @@ std::string reportFile(const MeshResult& result) {
 int run(const MeshCommand& command) {
   const auto start = std::chrono::steady_clock::now();
   if (const std::optional<Error> error = checkCommand(command)) return fail(*error);
-  ConsoleProgress progress(command.quiet);
+  ConsoleProgress console(command.quiet);
+  StageClock progress(console);
   const Result<ReadModel> model = loadModel(command.input, progress);
-  progress.clear();
+  console.clear();
   if (!model.ok()) return fail(model.error(), command.input);
   MeshOptions options = command.options;
   options.trace = !command.trace.empty();
   const Result<MeshResult> result = meshSurface(model.value().mesh, options, progress);
-  progress.clear();
+  console.clear();
   if (!result.ok()) return fail(result.error(), command.input);
 
   const MeshResult& mesh = result.value();
+  if (!progress.report(Stage::write, 0.0)) return fail(cancelledError(), command.input);
   const std::string content = writeMesh(mesh.mesh, *outputFormatOf(command.output), groupNames(mesh.input.brep));
   // A last look: a run that was interrupted this late leaves no file either.
   if (!progress.report(Stage::write, 1.0)) return fail(cancelledError(), command.input);
-  progress.clear();
+  console.clear();
   if (const std::optional<Error> error = writeFile(command.output, content)) return fail(*error);
   if (!command.report.empty()) {
-    if (const std::optional<Error> error = writeFile(command.report, reportFile(mesh))) return fail(*error);
+    if (const std::optional<Error> error = writeFile(command.report, reportFile(mesh, progress))) return fail(*error);
   }
   if (!command.trace.empty()) {
     if (const std::optional<Error> error = writeFile(command.trace, traceJson(mesh))) return fail(*error);

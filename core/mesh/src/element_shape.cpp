@@ -12,21 +12,31 @@ constexpr double kFolded = 0.2;
 /// Height over length below which a triangle has no area to speak of.
 constexpr double kFlat = 1e-9;
 
+/// Whether a vector leans less than kLeaning from a unit normal, by a margin; without a square root, since nearly all
+/// do.
+bool isClearlyUpright(const Vec3& v, const Vec3& normal) {
+  constexpr double kMargin = 1.01;
+  const double along = dot(v, normal);
+  return along > 0.0 && along * along > kMargin * kLeaning * kLeaning * squaredNorm(v);
+}
+
 }  // namespace
 
 double quadShape(const EditMesh& mesh, const std::array<VertexId, 4>& corners) {
   const auto p = [&](std::size_t i) -> const Vec3& { return mesh.position(corners[i % 4]); };
+  const std::array<Vec3, 4> side{p(1) - p(0), p(2) - p(1), p(3) - p(2), p(0) - p(3)};
+  const std::array<double, 4> length{norm(side[0]), norm(side[1]), norm(side[2]), norm(side[3])};
   const Vec3 normal = normalized(cross(p(2) - p(0), p(3) - p(1)));
   double worst = 1.0;
   for (std::size_t i = 0; i < 4; ++i) {
-    const Vec3 forward = p(i + 1) - p(i);
-    const Vec3 backward = p(i + 3) - p(i);
-    const double lengths = norm(forward) * norm(backward);
+    const double lengths = length[i] * length[(i + 3) % 4];
     if (!(lengths > 0.0)) return -1.0;
-    const Vec3 corner = cross(forward, backward) / lengths;
+    const Vec3 corner = cross(side[i], -side[(i + 3) % 4]) / lengths;
     // Against the element's own normal the scaled Jacobian; against the surface's a fold shows.
     worst = std::min(worst, dot(corner, normal));
-    const double upright = dot(normalized(corner), mesh.normal(corners[i]));
+    const Vec3& surface = mesh.normal(corners[i]);
+    if (isClearlyUpright(corner, surface)) continue;
+    const double upright = dot(normalized(corner), surface);
     if (upright < kLeaning) worst = std::min(worst, upright - kFolded);
   }
   return worst;

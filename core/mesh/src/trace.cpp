@@ -13,17 +13,17 @@ constexpr std::size_t kMostFailed = 64;  // 32 pairs.
 
 std::string_view traceKindName(TraceKind kind) {
   constexpr auto kNames = std::to_array<std::string_view>(
-      {"start", "star", "seed", "quad", "collision", "closure", "seam", "transition", "leftover", "paired",
-       "triangulated", "cleanup", "smooth", "doublet", "pair", "collapse", "refill", "cavity", "untangle",
-       "subdivision"});
+      {"start",      "star",     "seed",   "quad",         "collision", "closure",    "seam",
+       "transition", "leftover", "paired", "triangulated", "cleanup",   "smooth",     "doublet",
+       "pair",       "collapse", "refill", "cavity",       "untangle",  "subdivision"});
   return kNames[static_cast<std::size_t>(kind)];
 }
 
 bool operator==(const FaceTrace& a, const FaceTrace& b) {
   const auto same = [](const TraceStep& s, const TraceStep& t) {
-    return s.kind == t.kind && s.isReset == t.isReset && s.base == t.base && s.pass == t.pass &&
-           s.undone == t.undone && s.failed == t.failed && s.boundary == t.boundary && s.vertices == t.vertices &&
-           s.elements == t.elements && s.removed == t.removed && s.states == t.states;
+    return s.kind == t.kind && s.isReset == t.isReset && s.base == t.base && s.pass == t.pass && s.undone == t.undone &&
+           s.failed == t.failed && s.boundary == t.boundary && s.vertices == t.vertices && s.elements == t.elements &&
+           s.removed == t.removed && s.states == t.states;
   };
   return std::equal(a.steps.begin(), a.steps.end(), b.steps.begin(), b.steps.end(), same);
 }

@@ -3,7 +3,6 @@
 #include <array>
 #include <cassert>
 #include <cstddef>
-#include <optional>
 #include <utility>
 
 #include "face_tree.hpp"
@@ -12,7 +11,6 @@
 #include "qmcf/front/advancing_front.hpp"
 #include "qmcf/qmorph/qmorph.hpp"
 #include "qmcf/quality/quality.hpp"
-#include "qmcf/sizing/edge_curve.hpp"
 #include "qmcf/topology/brep.hpp"
 #include "too_coarse.hpp"
 
@@ -38,10 +36,9 @@ FaceMesh trianglesOf(const Patch& patch) {
   return mesh;
 }
 
-void count(MeshedFace& face) {
-  face.report.quads = face.report.triangles = 0;
-  for (const Element& element : face.mesh.elements)
-    ++(cornerCount(element) == 4 ? face.report.quads : face.report.triangles);
+void count(FaceReport& report, const FaceMesh& mesh) {
+  report.quads = report.triangles = 0;
+  for (const Element& element : mesh.elements) ++(cornerCount(element) == 4 ? report.quads : report.triangles);
 }
 
 /// Whether the ledger of a face's mesh closes with the Euler characteristic of the part's face, counted on the part.
@@ -53,23 +50,6 @@ void count(MeshedFace& face) {
 
 /// Where a front that nothing else starts is tried, as shares of the triangles.
 constexpr std::array<double, 4> kSeedPlaces{0.0, 0.37, 0.61, 0.83};
-
-/// A division of an edge of the B-rep.
-struct Division {
-  std::int32_t edge = kNone;
-  std::size_t index = 0;  ///< Of its first node.
-};
-
-/// The division under a boundary half-edge of a patch. \pre patch.edge[h] is an edge
-Division divisionOf(const Patch& patch, HalfedgeId h, const DividedEdges& divided) {
-  const std::int32_t edge = patch.edge[h];
-  const std::int32_t a = patch.node[patch.surface.origin(h)];
-  const std::int32_t b = patch.node[patch.surface.target(h)];
-  const auto& nodes = divided.edges[static_cast<std::size_t>(edge)].nodes;
-  std::size_t i = 0;
-  while (i + 2 < nodes.size() && !(nodes[i] == a && nodes[i + 1] == b) && !(nodes[i] == b && nodes[i + 1] == a)) ++i;
-  return {edge, i};
-}
 
 /// Area of a face mesh, and its share of triangles.
 struct Yield {
@@ -143,7 +123,7 @@ Result<MeshedFace> meshFace(const TriangleMesh& mesh, const Brep& brep, const Pr
   if (cleaned.value().degenerate.empty() && !isStuck) {
     result.mesh = std::move(cleaned.value().mesh);
     result.report.method = modeName(options.mode);
-    count(result);
+    count(result.report, result.mesh);
     return result;
   }
   result.report.reason = isStuck ? "the advancing front got stuck and left more than triangles can bridge well"
@@ -164,32 +144,36 @@ Result<MeshedFace> meshFace(const TriangleMesh& mesh, const Brep& brep, const Pr
     }
   }
   assert(ledgerCloses(result.mesh, mesh, brep, face));
-  count(result);
+  count(result.report, result.mesh);
   return result;
 }
 
-Result<MeshedFace> subdivideFace(const TriangleMesh& mesh, const Brep& brep, const PreparedFaces& prepared,
-                                 const MeshedFace& face, const std::optional<TraceScale>& scale, Progress& progress) {
+SharedFace shareFace(const MeshedFace& face, const PreparedFaces& prepared) {
+  SharedFace shared{face.mesh, {}, face.report, face.trace};
+  for (const std::int32_t v : face.mesh.patchVertex) {
+    const Patch& patch = prepared.patches[static_cast<std::size_t>(face.report.face)];
+    shared.node.push_back(v == kNone ? kNone : patch.node[VertexId(v)]);
+  }
+  return shared;
+}
+
+Result<SharedFace> subdivideFace(const TriangleMesh& mesh, const Brep& brep, const PreparedFaces& prepared,
+                                 const MeshedFace& face, const SharedNodes& halved,
+                                 const std::optional<TraceScale>& scale, Progress& progress) {
   const auto f = static_cast<std::size_t>(face.report.face);
   const Patch& patch = prepared.patches[f];
   const TriangleBvh tree = faceTree(mesh, brep.faces[f]);
+  const auto nodeHalving = [&](HalfedgeId h) { return halvingNode(patch, h, prepared.divided, halved); };
   IdMap<HalfedgeId, Vec3> middle(patch.surface.halfedgeCount());
-  std::vector<std::optional<EdgeCurve>> curves(brep.edges.size());
   for (const HalfedgeId h : IdRange<HalfedgeId>(patch.surface.halfedgeCount())) {
-    if (!patch.surface.isBoundary(h)) continue;
-    const Division division = divisionOf(patch, h, prepared.divided);
-    const auto e = static_cast<std::size_t>(division.edge);
-    const auto& arc = prepared.divided.edges[e].arcLength;
-    const double s = 0.5 * (arc[division.index] + arc[division.index + 1]);
-    if (!curves[e]) curves[e] = edgeCurve(mesh, brep.edges[e]);
-    middle[h] = curves[e]->at(s);
+    if (patch.surface.isBoundary(h)) middle[h] = halved.positions[static_cast<std::size_t>(nodeHalving(h))];
   }
-  SubdividedFace cut = subdivide(face.mesh, patch, tree, middle);
+  const SubdividedFace cut = subdivide(face.mesh, patch, tree, middle);
   CleanupOptions options;
   options.topology = false;
   options.quadsOnly = true;
   options.sizeScale = 0.5;
-  MeshedFace result = face;
+  SharedFace result = shareFace(face, prepared);
   std::optional<TraceRecorder> recorder;
   if (scale) recorder.emplace(result.trace, *scale);
   auto relaxed =
@@ -197,70 +181,12 @@ Result<MeshedFace> subdivideFace(const TriangleMesh& mesh, const Brep& brep, con
   if (!relaxed) return relaxed.error();
   assert(ledgerCloses(relaxed.value().mesh, mesh, brep, face.report.face));
   result.mesh = std::move(relaxed.value().mesh);
-  result.boundaryEdge = std::move(cut.boundaryEdge);
-  count(result);
+  result.node.resize(result.mesh.positions.size(), kNone);
+  for (std::size_t v = 0; v < cut.boundaryEdge.size(); ++v) {
+    if (cut.boundaryEdge[v].valid()) result.node[v] = nodeHalving(cut.boundaryEdge[v]);
+  }
+  count(result.report, result.mesh);
   return result;
-}
-
-QuadMesh joinFaces(const Brep& brep, const PreparedFaces& prepared, const std::vector<MeshedFace>& faces) {
-  QuadMesh joined;
-  std::vector<std::int32_t> nodeVertex(prepared.divided.nodes.size(), kNone);
-  const auto vertexOfNode = [&](std::int32_t node) {
-    std::int32_t& vertex = nodeVertex[static_cast<std::size_t>(node)];
-    if (vertex == kNone) {
-      vertex = static_cast<std::int32_t>(joined.positions.size());
-      joined.positions.push_back(prepared.divided.nodes[static_cast<std::size_t>(node)]);
-    }
-    return vertex;
-  };
-  // Per division of each edge, the vertex that halves it; used only where the faces were subdivided.
-  std::vector<std::vector<std::int32_t>> halves(brep.edges.size());
-  for (std::size_t e = 0; e < brep.edges.size(); ++e)
-    halves[e].assign(prepared.divided.edges[e].nodes.size() - 1, kNone);
-  for (const MeshedFace& face : faces) {
-    const Patch& patch = prepared.patches[static_cast<std::size_t>(face.report.face)];
-    std::vector<std::int32_t> vertexOf;
-    for (std::size_t v = 0; v < face.mesh.positions.size(); ++v) {
-      const std::int32_t patchVertex = face.mesh.patchVertex[v];
-      if (patchVertex != kNone) {
-        vertexOf.push_back(vertexOfNode(patch.node[VertexId(patchVertex)]));
-      } else if (!face.boundaryEdge.empty() && face.boundaryEdge[v].valid()) {
-        const Division division = divisionOf(patch, face.boundaryEdge[v], prepared.divided);
-        std::int32_t& half = halves[static_cast<std::size_t>(division.edge)][division.index];
-        if (half == kNone) {
-          half = static_cast<std::int32_t>(joined.positions.size());
-          joined.positions.push_back(face.mesh.positions[v]);
-        }
-        vertexOf.push_back(half);
-      } else {
-        vertexOf.push_back(static_cast<std::int32_t>(joined.positions.size()));
-        joined.positions.push_back(face.mesh.positions[v]);
-      }
-    }
-    for (Element element : face.mesh.elements) {
-      for (std::int32_t& corner : element) {
-        if (corner != kNone) corner = vertexOf[static_cast<std::size_t>(corner)];
-      }
-      joined.elements.push_back(element);
-      joined.elementFace.push_back(face.report.face);
-    }
-  }
-  for (std::size_t e = 0; e < brep.edges.size(); ++e) {
-    const auto& nodes = prepared.divided.edges[e].nodes;
-    for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
-      const auto edge = static_cast<std::int32_t>(e);
-      const std::int32_t a = vertexOfNode(nodes[i]);
-      const std::int32_t b = vertexOfNode(nodes[i + 1]);
-      const std::int32_t half = halves[e][i];
-      if (half == kNone) {
-        joined.featureSegments.push_back({a, b, edge});
-      } else {
-        joined.featureSegments.push_back({a, half, edge});
-        joined.featureSegments.push_back({half, b, edge});
-      }
-    }
-  }
-  return joined;
 }
 
 }  // namespace qmcf

@@ -6,13 +6,13 @@
 #include "qmcf/mesh/face_mesh.hpp"
 #include "qmcf/mesh/trace.hpp"
 #include "qmcf/pipeline/mesh_surface.hpp"
+#include "shared_nodes.hpp"
 
 namespace qmcf {
 
 /// One face meshed by the first step of the ladder that gives a valid mesh, and how.
 struct MeshedFace {
   FaceMesh mesh;
-  std::vector<HalfedgeId> boundaryEdge;  ///< Per vertex: the patch's boundary edge that it halves; empty if none does.
   FaceReport report;
   std::vector<SizeLimit> tooCoarse;  ///< Where the first step failed, with the size that may help.
   FaceTrace trace;                   ///< Its history, if that was asked for.
@@ -25,12 +25,22 @@ Result<MeshedFace> meshFace(const TriangleMesh& mesh, const Brep& brep, const Pr
                             std::int32_t face, const MeshOptions& options, const std::optional<TraceScale>& scale,
                             Progress& progress);
 
-/// Cuts every element at the middles of its edges, so that only quadrilaterals are left, and relaxes them.
-/// The history goes on in `scale`, if given. Errors: cancelled.
-Result<MeshedFace> subdivideFace(const TriangleMesh& mesh, const Brep& brep, const PreparedFaces& prepared,
-                                 const MeshedFace& face, const std::optional<TraceScale>& scale, Progress& progress);
+/// A face's mesh with its ties to the others.
+struct SharedFace {
+  FaceMesh mesh;
+  std::vector<std::int32_t> node;  ///< Per vertex: the node that it shares with other faces; kNone inside.
+  FaceReport report;
+  FaceTrace trace;
+};
 
-/// Joins the faces' meshes at the nodes that they share. Faces without elements are left out.
-QuadMesh joinFaces(const Brep& brep, const PreparedFaces& prepared, const std::vector<MeshedFace>& faces);
+/// The mesh of a face as it is. Node numbers are those of the last prepareFaces() or refineFaces().
+SharedFace shareFace(const MeshedFace& face, const PreparedFaces& prepared);
+
+/// The same with every element cut at the middles of its edges, so that only quadrilaterals are left, and relaxed.
+/// halved: the nodes of the boundary with those middles. The history goes on in `scale`, if given.
+/// Errors: cancelled.
+Result<SharedFace> subdivideFace(const TriangleMesh& mesh, const Brep& brep, const PreparedFaces& prepared,
+                                 const MeshedFace& face, const SharedNodes& halved,
+                                 const std::optional<TraceScale>& scale, Progress& progress);
 
 }  // namespace qmcf

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "covered_faces.hpp"
+#include "join_faces.hpp"
 #include "mesh_faces.hpp"
 #include "prepare.hpp"
 #include "qmcf/base/parallel.hpp"
@@ -101,26 +102,20 @@ class MeshRun {
     faces_.resize(brep_.faces.size());
     std::size_t fewest = 0;
     double mostElements = 0.0;
-    for (int attempt = 0;; ++attempt) {
+    for (int round = 0;; ++round) {
       if (const auto error = meshChanged(prepared)) return *error;
-      auto joined = join(prepared);
-      if (!joined) return joined.error();
-      if (!progress_.report(Stage::quality, 0.0)) return cancelledError();
-      QualityReport quality = measureQuality(joined.value().mesh, &mesh_, qualityOptions(options_, result_.size));
-      const std::size_t elements = joined.value().mesh.elements.size();
-      std::vector<SizeLimit> limits = tooCoarse(joined.value().mesh, quality);
-      if (attempt == 0 || limits.size() < fewest) {
+      auto attempted = attempt(prepared);
+      if (!attempted) return attempted.error();
+      std::vector<SizeLimit> limits = std::move(attempted.value().limits);
+      const auto elements = static_cast<double>(attempted.value().mesh.elements.size());
+      if (round == 0 || limits.size() < fewest) {
         fewest = limits.size();
-        result_.mesh = std::move(joined.value().mesh);
-        result_.quality = std::move(quality);
-        result_.faces = std::move(joined.value().reports);
-        if (scale_) result_.trace = MeshTrace{*scale_, std::move(joined.value().traces)};
-        describe(prepared);
+        keep(std::move(attempted).value(), prepared);
       }
       limits = notBelow(limits, kLowestSize * base);
-      if (attempt == 0) mostElements = kMostGrowth * static_cast<double>(elements);
-      const bool isLost = static_cast<double>(elements) > mostElements || limits.size() > 2 * fewest + kFewFaults;
-      if (limits.empty() || isLost || attempt == kMaxRefinements) return std::move(result_);
+      if (round == 0) mostElements = kMostGrowth * elements;
+      const bool isLost = elements > mostElements || limits.size() > 2 * fewest + kFewFaults;
+      if (limits.empty() || isLost || round == kMaxRefinements) return std::move(result_);
       auto refined = refineFaces(mesh_, brep_, options_, std::move(prepared), limits, progress_);
       if (!refined) return refined.error();
       prepared = std::move(refined).value();
@@ -128,10 +123,15 @@ class MeshRun {
   }
 
  private:
-  struct Joined {
+  /// A mesh of the whole part.
+  struct Attempt {
     QuadMesh mesh;
-    std::vector<FaceReport> reports;
+    std::vector<FaceReport> faces;
     std::vector<FaceTrace> traces;
+    bool relaxedTogether = false;
+    std::int64_t slidNodes = 0;
+    QualityReport quality;
+    std::vector<SizeLimit> limits;  ///< Where smaller elements may make it valid.
   };
 
   /// Calls work(face, progress) for each of the faces that are not omitted, several at a time.
@@ -162,32 +162,54 @@ class MeshRun {
     });
   }
 
-  std::optional<Error> subdivideAll(const PreparedFaces& prepared, std::vector<MeshedFace>& faces) {
+  std::optional<Error> subdivideAll(const PreparedFaces& prepared, const SharedNodes& shared,
+                                    std::vector<SharedFace>& faces) {
     std::vector<std::int32_t> all(faces.size());
     std::iota(all.begin(), all.end(), 0);
     return forEachFace(prepared, all, [&](std::int32_t face, Progress& progress) -> std::optional<Error> {
       const auto f = static_cast<std::size_t>(face);
-      auto cut = subdivideFace(mesh_, brep_, prepared, faces_[f], scale_, progress);
+      auto cut = subdivideFace(mesh_, brep_, prepared, faces_[f], shared, scale_, progress);
       if (!cut) return cut.error();
       faces[f] = std::move(cut).value();
       return std::nullopt;
     });
   }
 
-  Result<Joined> join(const PreparedFaces& prepared) {
-    std::vector<MeshedFace> faces = faces_;
+  /// The faces' meshes as one. Relaxed together, unless that costs the mesh its validity.
+  Result<Attempt> attempt(const PreparedFaces& prepared) {
+    auto relaxed = join(prepared, true);
+    if (!relaxed || halvedWhereInvalid(relaxed.value().mesh, relaxed.value().quality).empty()) return relaxed;
+    auto plain = join(prepared, false);
+    if (!plain) return plain;
+    return plain.value().limits.size() < relaxed.value().limits.size() ? std::move(plain) : std::move(relaxed);
+  }
+
+  Result<Attempt> join(const PreparedFaces& prepared, bool together) {
+    Attempt made;
+    SharedNodes shared = options_.allQuad ? halvedNodes(mesh_, brep_, prepared.divided) : sharedNodes(prepared.divided);
+    std::vector<SharedFace> faces;
+    for (const MeshedFace& face : faces_) faces.push_back(shareFace(face, prepared));
     if (options_.allQuad) {
-      if (const auto error = subdivideAll(prepared, faces)) return *error;
+      if (const auto error = subdivideAll(prepared, shared, faces)) return *error;
+    }
+    if (together) {
+      const auto slid = relaxJoint(mesh_, brep_, prepared, faces, shared, 1.0 / coarsening_, progress_);
+      if (!slid) return slid.error();
+      made.relaxedTogether = true;
+      made.slidNodes = slid.value();
     }
     for (std::size_t f = 0; f < faces.size(); ++f) {
       if (covered_.turned[f] != 0) turnRound(faces[f].mesh);
     }
-    Joined joined{joinFaces(brep_, prepared, faces), {}, {}};
-    for (MeshedFace& face : faces) {
-      joined.reports.push_back(std::move(face.report));
-      if (scale_) joined.traces.push_back(std::move(face.trace));
+    made.mesh = joinFaces(shared, faces);
+    for (SharedFace& face : faces) {
+      made.faces.push_back(std::move(face.report));
+      if (scale_) made.traces.push_back(std::move(face.trace));
     }
-    return joined;
+    if (!progress_.report(Stage::quality, 0.0)) return cancelledError();
+    made.quality = measureQuality(made.mesh, &mesh_, qualityOptions(options_, result_.size));
+    made.limits = tooCoarse(made.mesh, made.quality);
+    return made;
   }
 
   /// Where smaller elements may make the mesh valid.
@@ -201,7 +223,13 @@ class MeshRun {
     return limits;
   }
 
-  void describe(const PreparedFaces& prepared) {
+  void keep(Attempt made, const PreparedFaces& prepared) {
+    result_.mesh = std::move(made.mesh);
+    result_.faces = std::move(made.faces);
+    if (scale_) result_.trace = MeshTrace{*scale_, std::move(made.traces)};
+    result_.quality = std::move(made.quality);
+    result_.relaxedTogether = made.relaxedTogether;
+    result_.slidNodes = made.slidNodes;
     result_.fieldSingularities = 0;
     for (const CrossField& field : prepared.fields) {
       result_.fieldSingularities += static_cast<std::int64_t>(field.singularities.size());

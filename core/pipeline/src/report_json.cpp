@@ -177,7 +177,9 @@ std::string toJson(const MeshResult& result) {
                {"faces", toArray(result.faces)},
                {"repair", toArray(result.input.repaired.items)},
                {"fieldSingularities", result.fieldSingularities},
-               {"refinedPlaces", result.refinedPlaces}});
+               {"refinedPlaces", result.refinedPlaces},
+               {"relaxedTogether", result.relaxedTogether},
+               {"slidNodes", result.slidNodes}});
 }
 
 }  // namespace qmcf

@@ -23,6 +23,14 @@ double squaredDistanceToBox(const Vec3& p, const Vec3& low, const Vec3& high) {
   return x * x + y * y + z * z;
 }
 
+/// Squared distance of p from the box around a triangle: much less work than from the triangle.
+double squaredDistanceToBox(const Vec3& p, const std::array<Vec3, 3>& corner) {
+  const auto& [a, b, c] = corner;
+  const Vec3 low{std::min({a.x, b.x, c.x}), std::min({a.y, b.y, c.y}), std::min({a.z, b.z, c.z})};
+  const Vec3 high{std::max({a.x, b.x, c.x}), std::max({a.y, b.y, c.y}), std::max({a.z, b.z, c.z})};
+  return squaredDistanceToBox(p, low, high);
+}
+
 ClosestPoint weighted(const Vec3& query, const std::array<Vec3, 3>& corner, const std::array<double, 3>& weight) {
   ClosestPoint result;
   result.barycentric = weight;
@@ -202,7 +210,7 @@ ClosestPoint TriangleBvh::search(const Vec3& query, std::int32_t hint, Accept ac
     }
     for (std::int32_t i = node.first; i < node.first + node.count; ++i) {
       const auto index = static_cast<std::size_t>(i);
-      if (!accept(index)) continue;
+      if (squaredDistanceToBox(query, triangles_[index]) > best.squaredDistance || !accept(index)) continue;
       const ClosestPoint candidate = closestOn(query, triangles_[index]);
       const bool closer = candidate.squaredDistance < best.squaredDistance;
       const bool tie = candidate.squaredDistance == best.squaredDistance && order_[index] < best.triangle;

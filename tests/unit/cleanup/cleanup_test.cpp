@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "cleanup/grid_mesh.hpp"
 #include "field/patches.hpp"
 #include "qmcf/base/random.hpp"
 #include "qmcf/cleanup/subdivide.hpp"
@@ -11,56 +12,16 @@
 namespace qmcf {
 namespace {
 
-TriangleBvh treeOf(const Patch& patch) {
-  std::vector<Vec3> positions;
-  std::vector<std::array<std::int32_t, 3>> triangles;
-  for (const VertexId v : patch.surface.vertices()) positions.push_back(patch.surface.position(v));
-  for (const TriangleId t : patch.surface.triangles()) {
-    const auto c = patch.surface.corners(t);
-    triangles.push_back({c[0].value, c[1].value, c[2].value});
-  }
-  return TriangleBvh(positions, triangles);
-}
-
-/// The cells x cells grid of quads of a square patch.
-FaceMesh gridMesh(const Patch& patch, int cells) {
-  FaceMesh mesh;
-  const Surface& surface = patch.surface;
-  std::vector<std::int32_t> index;
-  const auto vertexAt = [&](int i, int j) {
-    const Vec3 wanted{static_cast<double>(i) / cells, static_cast<double>(j) / cells, 0.0};
-    for (const VertexId v : surface.vertices()) {
-      if (distance(surface.position(v), wanted) < 1e-9) return v.value;
-    }
-    return kNone;
-  };
-  for (const VertexId v : surface.vertices()) {
-    const HalfedgeId h = surface.outgoing(v);
-    SurfacePoint location{Surface::triangle(h), {0, 0, 0}};
-    location.barycentric[static_cast<std::size_t>(h.value % 3)] = 1.0;
-    mesh.positions.push_back(surface.position(v));
-    mesh.normals.push_back({0, 0, 1});
-    mesh.locations.push_back(location);
-    mesh.patchVertex.push_back(surface.isBoundary(v) ? v.value : kNone);
-  }
-  for (int j = 0; j < cells; ++j) {
-    for (int i = 0; i < cells; ++i) {
-      mesh.elements.push_back({vertexAt(i, j), vertexAt(i + 1, j), vertexAt(i + 1, j + 1), vertexAt(i, j + 1)});
-    }
-  }
-  return mesh;
-}
-
 CleanupResult clean(const FaceMesh& mesh, const Patch& patch, const CleanupOptions& options = {}) {
   SilentProgress silent;
-  auto result = cleanUp(mesh, patch, treeOf(patch), options, silent);
+  auto result = cleanUp(mesh, patch, testing::treeOf(patch), options, silent);
   EXPECT_TRUE(result.ok());
   return std::move(result).value();
 }
 
 TEST(CleanUp, LeavesAPerfectGridAlone) {
   const Patch patch = testing::makeSquare(6);
-  const FaceMesh grid = gridMesh(patch, 6);
+  const FaceMesh grid = testing::gridMesh(patch, 6);
   const CleanupResult result = clean(grid, patch);
   EXPECT_EQ(result.mesh.elements.size(), 36U);
   EXPECT_NEAR(result.worstShape, 1.0, 1e-9);
@@ -70,7 +31,7 @@ TEST(CleanUp, LeavesAPerfectGridAlone) {
 
 TEST(CleanUp, RelaxesNoiseBackToTheGrid) {
   const Patch patch = testing::makeSquare(8);
-  FaceMesh noisy = gridMesh(patch, 8);
+  FaceMesh noisy = testing::gridMesh(patch, 8);
   Random random(3);
   for (std::size_t v = 0; v < noisy.positions.size(); ++v) {
     if (noisy.patchVertex[v] != kNone) continue;
@@ -82,7 +43,7 @@ TEST(CleanUp, RelaxesNoiseBackToTheGrid) {
 
 TEST(CleanUp, UndoesADoubletAndABadRotation) {
   const Patch patch = testing::makeSquare(6);
-  FaceMesh mesh = gridMesh(patch, 6);
+  FaceMesh mesh = testing::gridMesh(patch, 6);
   // A vertex inside one quad, joined to two opposite corners, makes two quads with a doublet between them.
   const Element quad = mesh.elements[14];
   const auto at = [&](std::size_t i) { return mesh.positions[static_cast<std::size_t>(quad[i])]; };
@@ -101,7 +62,7 @@ TEST(CleanUp, UndoesADoubletAndABadRotation) {
 
 TEST(CleanUp, PairsTrianglesOfASplitQuad) {
   const Patch patch = testing::makeSquare(5);
-  FaceMesh mesh = gridMesh(patch, 5);
+  FaceMesh mesh = testing::gridMesh(patch, 5);
   const Element quad = mesh.elements[12];
   mesh.elements[12] = {quad[0], quad[1], quad[2], kNone};
   mesh.elements.push_back({quad[0], quad[2], quad[3], kNone});
@@ -112,7 +73,7 @@ TEST(CleanUp, PairsTrianglesOfASplitQuad) {
 
 TEST(CleanUp, TwoOppositeDipolesGiveWayToAGrid) {
   const Patch patch = testing::makeSquare(8);
-  FaceMesh mesh = gridMesh(patch, 8);
+  FaceMesh mesh = testing::gridMesh(patch, 8);
   // The diagonal of two quads beside each other is turned: four irregular vertices in the middle.
   const Element a = mesh.elements[3 * 8 + 3];
   const Element b = mesh.elements[3 * 8 + 4];
@@ -125,7 +86,7 @@ TEST(CleanUp, TwoOppositeDipolesGiveWayToAGrid) {
 
 TEST(Subdivide, CutsQuadrilateralsInFourAndTrianglesInThree) {
   const Patch patch = testing::makeSquare(4);
-  FaceMesh mesh = gridMesh(patch, 4);
+  FaceMesh mesh = testing::gridMesh(patch, 4);
   const Element quad = mesh.elements[5];
   mesh.elements[5] = {quad[0], quad[1], quad[2], kNone};
   mesh.elements.push_back({quad[0], quad[2], quad[3], kNone});
@@ -137,7 +98,7 @@ TEST(Subdivide, CutsQuadrilateralsInFourAndTrianglesInThree) {
     middle[h] =
         (patch.surface.position(patch.surface.origin(h)) + patch.surface.position(patch.surface.target(h))) * 0.5;
   }
-  const SubdividedFace cut = subdivide(mesh, patch, treeOf(patch), middle);
+  const SubdividedFace cut = subdivide(mesh, patch, testing::treeOf(patch), middle);
   ASSERT_EQ(cut.mesh.elements.size(), 15U * 4U + 2U * 3U);
   for (const Element& element : cut.mesh.elements) EXPECT_EQ(cornerCount(element), 4U);
   // Euler: vertices - edges + elements = 1, and every edge has been halved.
@@ -157,7 +118,7 @@ TEST(Subdivide, CutsQuadrilateralsInFourAndTrianglesInThree) {
 
 TEST(CleanUp, WithoutTopologyKeepsTheConnectivity) {
   const Patch patch = testing::makeSquare(5);
-  FaceMesh mesh = gridMesh(patch, 5);
+  FaceMesh mesh = testing::gridMesh(patch, 5);
   const Element quad = mesh.elements[12];
   mesh.elements[12] = {quad[0], quad[1], quad[2], kNone};
   mesh.elements.push_back({quad[0], quad[2], quad[3], kNone});

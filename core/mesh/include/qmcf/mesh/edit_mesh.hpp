@@ -31,6 +31,8 @@ class EditMesh {
     Vec3 position;
     Vec3 normal;            ///< Unit normal of the underlying surface.
     SurfacePoint location;  ///< Where it lies on the background surface.
+    /// The input triangle that it was projected to, where later searches start; kNone if it never was.
+    std::int32_t facet = kNone;
   };
 
   /// Is told of every commit, while the journal still is there.

@@ -12,26 +12,26 @@ namespace qmcf {
 
 /// What a step of a face's history is.
 enum class TraceKind : std::uint8_t {
-  start,        ///< A front before its first element; all of the face is open. Begins anew.
-  star,         ///< The pattern at a singularity.
-  seed,         ///< The first element where no front begins by itself.
-  quad,         ///< A quadrilateral on a front edge.
-  collision,    ///< One that joins the front to itself or to another one.
-  closure,      ///< What filled a small loop.
-  seam,         ///< A narrow wedge that was closed by merging vertices.
-  transition,   ///< An edge between a short and a long one that was split.
-  leftover,     ///< What the front could not mesh, as triangles and pairs of them.
-  paired,       ///< Instead of a front: the triangulation with its triangles paired. Begins anew.
-  triangulated, ///< Instead of a front: the triangulation as it is. Begins anew.
-  cleanup,      ///< The mesh that is handed to the clean-up. Begins anew.
-  smooth,       ///< Vertices that were relaxed.
-  doublet,      ///< A vertex with two elements that was removed.
-  pair,         ///< Two triangles that became a quadrilateral.
-  collapse,     ///< A quadrilateral that was closed along a diagonal.
-  refill,       ///< A few elements that were replaced.
-  cavity,       ///< Many elements that were replaced by a pattern.
-  untangle,     ///< Vertices that were moved to turn elements back, and quadrilaterals that were cut.
-  subdivision,  ///< Every element cut at the middles of its edges. Begins anew.
+  start,         ///< A front before its first element; all of the face is open. Begins anew.
+  star,          ///< The pattern at a singularity.
+  seed,          ///< The first element where no front begins by itself.
+  quad,          ///< A quadrilateral on a front edge.
+  collision,     ///< One that joins the front to itself or to another one.
+  closure,       ///< What filled a small loop.
+  seam,          ///< A narrow wedge that was closed by merging vertices.
+  transition,    ///< An edge between a short and a long one that was split.
+  leftover,      ///< What the front could not mesh, as triangles and pairs of them.
+  paired,        ///< Instead of a front: the triangulation with its triangles paired. Begins anew.
+  triangulated,  ///< Instead of a front: the triangulation as it is. Begins anew.
+  cleanup,       ///< The mesh that is handed to the clean-up. Begins anew.
+  smooth,        ///< Vertices that were relaxed.
+  doublet,       ///< A vertex with two elements that was removed.
+  pair,          ///< Two triangles that became a quadrilateral.
+  collapse,      ///< A quadrilateral that was closed along a diagonal.
+  refill,        ///< A few elements that were replaced.
+  cavity,        ///< Many elements that were replaced by a pattern.
+  untangle,      ///< Vertices that were moved to turn elements back, and quadrilaterals that were cut.
+  subdivision,   ///< Every element cut at the middles of its edges. Begins anew.
 };
 /// The kind's name; the same in C++, JSON and TypeScript.
 std::string_view traceKindName(TraceKind kind);
@@ -56,12 +56,12 @@ struct TraceScale {
 /// since the mesh last began anew; an element keeps its number when its corners change.
 struct TraceStep {
   TraceKind kind = TraceKind::start;
-  bool isReset = false;                          ///< The mesh begins anew: nothing of what was before is left.
+  bool isReset = false;                            ///< The mesh begins anew: nothing of what was before is left.
   std::array<std::int32_t, 2> base{kNone, kNone};  ///< The front edge that it was made on, if any.
-  std::int32_t pass = 0;    ///< How desperate the front was, 0 to 2.
-  std::int32_t undone = 0;  ///< Attempts since the last step that were rolled back.
+  std::int32_t pass = 0;                           ///< How desperate the front was, 0 to 2.
+  std::int32_t undone = 0;                         ///< Attempts since the last step that were rolled back.
   std::vector<std::int32_t> failed;  ///< Pairs of vertices: front edges put off since the last step, at most 32.
-  std::vector<std::vector<std::int32_t>> boundary;  ///< Of a mesh that begins anew: the face's loops.
+  std::vector<std::vector<std::int32_t>> boundary;    ///< Of a mesh that begins anew: the face's loops.
   std::vector<std::array<std::int32_t, 4>> vertices;  ///< Vertex, x, y, z: new ones and those that moved.
   std::vector<std::array<std::int32_t, 5>> elements;  ///< Element and corners, kNone for no fourth: new or changed.
   std::vector<std::int32_t> removed;                  ///< Elements.
@@ -116,9 +116,9 @@ class TraceRecorder final : public EditMesh::Watcher {
   TraceStep pending_;
   std::int32_t vertexCount_ = 0;
   std::int32_t elementCount_ = 0;
-  std::vector<std::int32_t> vertexNumber_;               ///< Per vertex of the mesh; kNone: not in any element yet.
+  std::vector<std::int32_t> vertexNumber_;              ///< Per vertex of the mesh; kNone: not in any element yet.
   std::vector<std::array<std::int32_t, 3>> positions_;  ///< Per number: as last written.
-  std::vector<Shown> shown_;                             ///< Per face of the mesh.
+  std::vector<Shown> shown_;                            ///< Per face of the mesh.
 };
 
 }  // namespace qmcf

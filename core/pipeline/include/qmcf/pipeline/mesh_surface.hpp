@@ -56,11 +56,6 @@ struct FaceReport {
   std::int64_t triangles = 0;
 };
 
-struct StageTime {
-  Stage stage = Stage::read;
-  double seconds = 0.0;
-};
-
 /// The input as the later stages see it; enough to draw the part.
 struct InspectResult {
   RepairedMesh repaired;
@@ -75,7 +70,7 @@ struct FieldResult {
   std::vector<CrossField> fields;  ///< One per patch.
 };
 
-/// How the faces were meshed.
+/// How the faces were meshed, each by itself: up to where their meshes are relaxed together.
 struct MeshTrace {
   TraceScale scale;              ///< Of the coordinates.
   std::vector<FaceTrace> faces;  ///< Per face of the B-rep; without steps where it is omitted.
@@ -90,6 +85,9 @@ struct MeshResult {
   std::vector<FaceReport> faces;
   std::int64_t fieldSingularities = 0;  ///< 0 in a mode without a cross field.
   std::int64_t refinedPlaces = 0;  ///< Where elements of the size asked for could not follow the part: smaller there.
+  /// Whether the faces' meshes were relaxed together, across their edges; if not, because the mesh would not be valid.
+  bool relaxedTogether = true;
+  std::int64_t slidNodes = 0;  ///< Nodes that this moved along their edges by more than a tenth of the element size.
   std::optional<MeshTrace> trace;  ///< If it was asked for.
 };
 

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <vector>
+
+#include "mesh_faces.hpp"
+#include "prepare.hpp"
+#include "shared_nodes.hpp"
+
+namespace qmcf {
+
+/// Relaxes the faces' meshes together, across the edges that they share, and moves the nodes on these. Errors:
+/// cancelled.
+Result<std::int64_t> relaxJoint(const TriangleMesh& mesh, const Brep& brep, const PreparedFaces& prepared,
+                                std::vector<SharedFace>& faces, SharedNodes& shared, double sizeScale,
+                                Progress& progress);
+
+/// Joins the faces' meshes at the nodes that they share. Faces without elements are left out.
+QuadMesh joinFaces(const SharedNodes& shared, const std::vector<SharedFace>& faces);
+
+}  // namespace qmcf

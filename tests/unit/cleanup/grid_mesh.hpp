@@ -1,0 +1,54 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "qmcf/mesh/face_mesh.hpp"
+#include "qmcf/mesh/patch.hpp"
+#include "qmcf/spatial/triangle_bvh.hpp"
+
+namespace qmcf::testing {
+
+/// Over the patch's triangles.
+inline TriangleBvh treeOf(const Patch& patch) {
+  std::vector<Vec3> positions;
+  std::vector<std::array<std::int32_t, 3>> triangles;
+  for (const VertexId v : patch.surface.vertices()) positions.push_back(patch.surface.position(v));
+  for (const TriangleId t : patch.surface.triangles()) {
+    const auto c = patch.surface.corners(t);
+    triangles.push_back({c[0].value, c[1].value, c[2].value});
+  }
+  return TriangleBvh(positions, triangles);
+}
+
+/// The cells x cells grid of quads of a square patch.
+inline FaceMesh gridMesh(const Patch& patch, int cells) {
+  FaceMesh mesh;
+  const Surface& surface = patch.surface;
+  std::vector<std::int32_t> index;
+  const auto vertexAt = [&](int i, int j) {
+    const Vec3 wanted{static_cast<double>(i) / cells, static_cast<double>(j) / cells, 0.0};
+    for (const VertexId v : surface.vertices()) {
+      if (distance(surface.position(v), wanted) < 1e-9) return v.value;
+    }
+    return kNone;
+  };
+  for (const VertexId v : surface.vertices()) {
+    const HalfedgeId h = surface.outgoing(v);
+    SurfacePoint location{Surface::triangle(h), {0, 0, 0}};
+    location.barycentric[static_cast<std::size_t>(h.value % 3)] = 1.0;
+    mesh.positions.push_back(surface.position(v));
+    mesh.normals.push_back({0, 0, 1});
+    mesh.locations.push_back(location);
+    mesh.patchVertex.push_back(surface.isBoundary(v) ? v.value : kNone);
+  }
+  for (int j = 0; j < cells; ++j) {
+    for (int i = 0; i < cells; ++i) {
+      mesh.elements.push_back({vertexAt(i, j), vertexAt(i + 1, j), vertexAt(i + 1, j + 1), vertexAt(i, j + 1)});
+    }
+  }
+  return mesh;
+}
+
+}  // namespace qmcf::testing
