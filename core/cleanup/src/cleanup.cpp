@@ -45,10 +45,15 @@ std::int64_t cutInverted(EditMesh& mesh) {
 }  // namespace
 
 Result<CleanupResult> cleanUp(const FaceMesh& mesh, const Patch& patch, const TriangleBvh& target,
-                              const CleanupOptions& options, Progress& progress) {
+                              const CleanupOptions& options, Progress& progress, TraceRecorder* trace,
+                              TraceKind start) {
   EditMesh work(mesh);
+  if (trace != nullptr) trace->begin(start, work);
+  const auto note = [trace](TraceKind kind) {
+    if (trace != nullptr) trace->next(kind);
+  };
   const RelaxationTarget where{patch, target, options.sizeScale};
-  TopologicalCleanup topology(work, patch, where, options);
+  TopologicalCleanup topology(work, patch, where, options, trace);
   constexpr double kEnough = 0.6;
   constexpr int kSweepsPerRound = 3;
   constexpr std::int32_t kSmallRounds = 2;
@@ -57,8 +62,10 @@ Result<CleanupResult> cleanUp(const FaceMesh& mesh, const Patch& patch, const Tr
   LazyRelaxation relaxation(work, where, kEnough);
   for (std::int32_t round = 0; options.topology && round < options.rounds; ++round) {
     if (!progress.report(Stage::cleanup, 0.7 * round / options.rounds)) return cancelledError();
+    note(TraceKind::smooth);
     for (int sweep = 0; sweep < kSweepsPerRound && relaxation.sweep(); ++sweep) {
     }
+    work.commit();
     std::int64_t changes = topology.pass();
     const bool settled = changes == 0 || round == kSmallRounds;
     if (settled && cavityPasses < kCavityPasses) {
@@ -68,13 +75,18 @@ Result<CleanupResult> cleanUp(const FaceMesh& mesh, const Patch& patch, const Tr
     relaxation.wake(topology.takeTouched());
     if (changes == 0) break;
   }
+  note(TraceKind::smooth);
   for (std::int32_t sweep = 0; sweep < options.sweeps; ++sweep) {
     if (!progress.report(Stage::cleanup, 0.7 + 0.3 * sweep / options.sweeps)) return cancelledError();
-    if (!relaxation.sweep()) break;
+    const bool isStill = !relaxation.sweep();
+    work.commit();
+    if (isStill) break;
   }
+  note(TraceKind::untangle);
   const std::int64_t turnedOver = untangle(work, where);
   const std::int64_t cuts = options.quadsOnly ? 0 : cutInverted(work);
   if (cuts > 0) untangle(work, where);
+  work.commit();
   CleanupResult result{extract(work, mesh.patchVertex), topology.statistics(), 1.0, {}};
   result.statistics.turnedOver = turnedOver;
   result.statistics.cuts = cuts;

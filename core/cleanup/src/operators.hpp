@@ -7,6 +7,7 @@
 #include "cavity.hpp"
 #include "qmcf/cleanup/cleanup.hpp"
 #include "qmcf/mesh/edit_mesh.hpp"
+#include "qmcf/mesh/side_pattern.hpp"
 #include "relaxation.hpp"
 
 namespace qmcf {
@@ -16,7 +17,8 @@ namespace qmcf {
 /// options.leastShape, or than the worst before if that was less.
 class TopologicalCleanup {
  public:
-  TopologicalCleanup(EditMesh& mesh, const Patch& patch, const RelaxationTarget& target, const CleanupOptions& options);
+  TopologicalCleanup(EditMesh& mesh, const Patch& patch, const RelaxationTarget& target, const CleanupOptions& options,
+                     TraceRecorder* trace);
 
   /// One pass of the small operators over the mesh. Returns the number of changes.
   std::int64_t pass();
@@ -28,6 +30,10 @@ class TopologicalCleanup {
   [[nodiscard]] const CleanupStatistics& statistics() const { return statistics_; }
 
  private:
+  /// What the next commits are, for the trace.
+  void note(TraceKind kind) {
+    if (trace_ != nullptr) trace_->next(kind);
+  }
   /// Elements around a vertex, less the number that makes it regular.
   [[nodiscard]] int excess(VertexId v) const;
   bool removeDoublet(VertexId v);
@@ -40,6 +46,7 @@ class TopologicalCleanup {
   [[nodiscard]] std::vector<int> wantedInside(const std::vector<HalfedgeId>& loop) const;
   bool grow(const std::vector<VertexId>& around);
   bool fillCavity(const std::vector<HalfedgeId>& loop, const std::vector<int>& corners);
+  bool fillWith(const SidePattern& pattern, const std::vector<HalfedgeId>& loop, int drop);
   /// Relaxes around the vertices and keeps the change since mark if no element there has a shape below `least`.
   bool settle(const std::vector<VertexId>& vertices, double least, std::size_t mark);
 
@@ -48,6 +55,7 @@ class TopologicalCleanup {
   const RelaxationTarget& target_;
   const CleanupOptions& options_;
   CleanupStatistics statistics_;
+  TraceRecorder* trace_;           ///< nullptr: nobody wants the history.
   Cavity cavity_;                  ///< The region being looked at.
   std::vector<VertexId> touched_;  ///< See takeTouched().
 };

@@ -13,6 +13,7 @@ struct RelaxationTarget {
   const Patch& patch;       ///< Sizes and normals.
   const TriangleBvh& face;  ///< The face's input triangles.
   double sizeScale = 1.0;   ///< Element length in units of the patch's sizes.
+  bool onPatch = false;     ///< Project on the patch's triangles instead: near, and cheaper, for what is only tried.
 };
 
 /// The place on the face nearest to a position, with normal and location.
@@ -22,9 +23,9 @@ EditMesh::Vertex projectVertex(const RelaxationTarget& target, const EditMesh::V
 /// plane of normal; size: the edge length wanted there.
 Vec3 idealCorner(const EditMesh& mesh, HalfedgeId h, const Vec3& normal, double size);
 
-/// One Gauss-Seidel sweep over the given vertices: each moves to the mean of the places that the best-fitting squares
-/// (equilateral triangles) of its elements give it, is projected, and stays where it was if an element around it would
-/// become worse than both before and `enough`. Boundary vertices don't move.
+/// One sweep of successive over-relaxation over the given vertices: each moves towards the mean of the places that the
+/// best-fitting squares (equilateral triangles) of its elements give it and somewhat further, is projected, and stays
+/// where it was if an element around it would become worse than both before and `enough`. Boundary vertices don't move.
 void relax(EditMesh& mesh, const std::vector<VertexId>& vertices, const RelaxationTarget& target, double enough);
 
 /// Sweeps over all vertices of a mesh that leave out those around which nothing has moved since they were visited last.
@@ -34,8 +35,8 @@ class LazyRelaxation {
 
   /// To be called after a change of the mesh with the vertices that it touched; new ones are awake.
   void wake(const std::vector<VertexId>& vertices);
-  /// As relax(), for the vertices that are awake, and commits. Returns false once nothing moves by more than a
-  /// two-hundredth of the element size.
+  /// As relax(), for the vertices that are awake. Returns false once nothing moves by more than a two-hundredth of the
+  /// element size.
   bool sweep();
 
  private:
