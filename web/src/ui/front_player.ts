@@ -62,7 +62,7 @@ export function frontPlayer(store: Store, draw: (playback: Playback | undefined)
     pause();
     go(slider.valueAsNumber);
   });
-  const place = el('output', { class: 'place' });
+  const place = el('span', { class: 'place' });
   const what = el('p', { class: 'what' });
   const count = el('span', { class: 'grown' });
   const [faceId, speedId] = [uniqueId(), uniqueId()];
@@ -111,7 +111,8 @@ export function frontPlayer(store: Store, draw: (playback: Playback | undefined)
     playback.seek(position);
     const { current, face: present, length, elementCount } = playback;
     slider.value = String(playback.position);
-    place.value = `${format.count(playback.position + 1)} / ${format.count(length)}`;
+    slider.style.setProperty('--at', String(playback.position / Math.max(1, length - 1)));
+    place.textContent = `${format.count(playback.position + 1)} / ${format.count(length)}`;
     slider.setAttribute('aria-valuetext', current.last ? stepNames[current.last.kind] : '');
     what.replaceChildren(...describe(current.last, present && faceLabel(store, present.face)));
     element.dataset['kind'] = current.last?.kind ?? '';

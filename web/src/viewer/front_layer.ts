@@ -1,5 +1,6 @@
 import type { MeshTrace } from 'qmcf';
-import { BufferAttribute, BufferGeometry, type Color, LineBasicMaterial, LineSegments, Mesh, MeshStandardMaterial, DoubleSide } from 'three';
+import { BufferAttribute, BufferGeometry, type Color, DoubleSide, Mesh, MeshStandardMaterial } from 'three';
+import { LineSegments2 } from 'three/addons/lines/LineSegments2.js';
 import type { Corners, FaceReplay, Playback } from '../replay.js';
 import type { Frame } from './frame.js';
 import { Layer } from './layer.js';
@@ -8,6 +9,8 @@ import type { Palette } from './palette.js';
 
 const frontWidth = 3.2;
 const baseWidth = 5.5;
+/** Of the front where the part is before it. */
+const throughOpacity = 0.3;
 
 /** The mesh of a face while it grows, and the front by state. */
 export class FrontLayer extends Layer {
@@ -59,8 +62,15 @@ export class FrontLayer extends Layer {
     }
     const lines = lineSegments(ends, color, width);
     drawNearer(lines);
-    lines.renderOrder = 3;
+    lines.renderOrder = 4;
     this.present.add(lines);
+    // On the far side of the part it shows through.
+    const hidden = lineSegments(ends, color, width, throughOpacity);
+    if (hidden instanceof LineSegments2) {
+      hidden.material.depthTest = false;
+      hidden.renderOrder = 3;
+      this.present.add(hidden);
+    }
   }
 }
 
@@ -73,6 +83,7 @@ function addElements(layer: Layer, face: FaceReplay, positions: Float32Array, pa
   const corners: number[] = [];
   const colors: number[] = [];
   const edges: number[] = [];
+  const drawn = new Set<number>();
   for (const [id, element] of face.elements) {
     const color = face.fresh.has(id) && !isPast ? palette.freshElement : element[3] < 0 ? palette.triangle : palette.grownElement;
     for (const corner of trianglesOf(element)) {
@@ -81,7 +92,13 @@ function addElements(layer: Layer, face: FaceReplay, positions: Float32Array, pa
     }
     const count = element[3] < 0 ? 3 : 4;
     for (let i = 0; i < count; ++i) {
-      edges.push(element[i]!, element[(i + 1) % count]!);
+      const [from, to] = [element[i]!, element[(i + 1) % count]!];
+      // Most edges have two elements: the line is drawn once.
+      const key = Math.min(from, to) * 2 ** 26 + Math.max(from, to);
+      if (!drawn.has(key)) {
+        drawn.add(key);
+        edges.push(from, to);
+      }
     }
   }
   if (corners.length === 0) {
@@ -93,8 +110,8 @@ function addElements(layer: Layer, face: FaceReplay, positions: Float32Array, pa
   geometry.computeVertexNormals();
   const surface = new Mesh(geometry, elementMaterial());
   surface.renderOrder = 1;
-  const outline = new BufferGeometry().setAttribute('position', new BufferAttribute(gather(positions, edges), 3));
-  const lines = new LineSegments(outline, new LineBasicMaterial({ color: palette.meshEdge, transparent: true, opacity: isPast ? 0.45 : 0.75 }));
+  const lines = lineSegments(gather(positions, edges), palette.meshEdge, 1, isPast ? 0.5 : 0.85);
+  drawNearer(lines);
   lines.renderOrder = 2;
   layer.add(surface, lines);
 }
@@ -107,8 +124,8 @@ function elementMaterial(): MeshStandardMaterial {
     roughness: 0.62,
     metalness: 0,
     polygonOffset: true,
-    polygonOffsetFactor: -1,
-    polygonOffsetUnits: -40,
+    polygonOffsetFactor: -0.4,
+    polygonOffsetUnits: -2,
   });
 }
 
