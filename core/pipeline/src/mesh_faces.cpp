@@ -103,6 +103,15 @@ Result<MeshedFace> meshFace(const TriangleMesh& mesh, const Brep& brep, const Pr
   const TriangleBvh tree = faceTree(mesh, brep.faces[f]);
   MeshedFace result;
   result.report.face = face;
+  if (prepared.given[f] != Given::nothing) {
+    const bool paired = prepared.given[f] == Given::pairs;
+    result.mesh = paired ? recombinePatch(patch).mesh : trianglesOf(patch);
+    result.report.method = "given";
+    result.report.reason = "elements of no size tried gave a valid mesh: the part's own triangles";
+    assert(ledgerCloses(result.mesh, mesh, brep, face));
+    count(result.report, result.mesh);
+    return result;
+  }
 
   // A front that got stuck may do better from another start, where the start is free.
   bool isStuck = true;
@@ -164,11 +173,15 @@ Result<SharedFace> subdivideFace(const TriangleMesh& mesh, const Brep& brep, con
   options.topology = false;
   options.quadsOnly = true;
   options.sizeScale = 0.5;
-  auto relaxed = cleanUp(cut.mesh, patch, tree, options, progress);
-  if (!relaxed) return relaxed.error();
-  assert(ledgerCloses(relaxed.value().mesh, mesh, brep, face.report.face));
   SharedFace result = shareFace(face, prepared);
-  result.mesh = std::move(relaxed.value().mesh);
+  if (prepared.given[f] != Given::nothing) {
+    result.mesh = cut.mesh;
+  } else {
+    auto relaxed = cleanUp(cut.mesh, patch, tree, options, progress);
+    if (!relaxed) return relaxed.error();
+    result.mesh = std::move(relaxed.value().mesh);
+  }
+  assert(ledgerCloses(result.mesh, mesh, brep, face.report.face));
   result.node.resize(result.mesh.positions.size(), kNone);
   for (std::size_t v = 0; v < cut.boundaryEdge.size(); ++v) {
     if (cut.boundaryEdge[v].valid()) result.node[v] = nodeHalving(cut.boundaryEdge[v]);
