@@ -52,6 +52,19 @@ function cube(n = 1) {
   return [...lines, ...faces, ''].join('\n');
 }
 
+/** The numbers of elements that the last step of each face leaves, from docs/trace.md alone. */
+function elementsOfTrace({ faces }) {
+  return faces.map(({ steps }) => {
+    let elements = new Set();
+    for (const { boundary, elements: changed = [], removed = [] } of steps) {
+      if (boundary) elements = new Set();
+      removed.forEach((id) => assert.ok(elements.delete(id)));
+      for (let i = 0; i < changed.length; i += 5) elements.add(changed[i]);
+    }
+    return elements.size;
+  });
+}
+
 function binaryStl(triangles) {
   const bytes = Buffer.alloc(84 + 50 * triangles);
   bytes.writeUInt32LE(triangles, 80);
@@ -315,4 +328,21 @@ test('mesh --no-repair meshes the model as it is', () => {
   };
   assert.equal(components(), 1);
   assert.equal(components('--no-repair'), 2);
+});
+
+test('the history of the front is written, and ends with the elements of the mesh', () => {
+  put('traced.obj', cube());
+  const run = qmcf('mesh', 'traced.obj', '-o', 'traced.out.obj', '--quads', '150', '--trace', 'trace.json', '--quiet');
+  assert.deepEqual(run, { status: 0, stdout: '', stderr: '' });
+  const trace = JSON.parse(get('trace.json'));
+  assert.equal(trace.format, 'qmcf-trace');
+  assert.equal(trace.version, 1);
+  assert.equal(trace.faces.length, 6);
+  const kinds = new Set(trace.faces.flatMap(({ steps }) => steps.map(({ kind }) => kind)));
+  for (const kind of ['start', 'quad', 'collision', 'cleanup']) assert.ok(kinds.has(kind), kind);
+  const total = elementsOfTrace(trace).reduce((sum, n) => sum + n, 0);
+  assert.equal(total, get('traced.out.obj').match(/^f /gm).length);
+  const refused = qmcf('mesh', 'traced.obj', '-o', 'no.obj', '--trace', 'nowhere/trace.json', '--quiet');
+  assert.equal(refused.status, 2);
+  assert.ok(!existsSync(join(folder, 'no.obj')));
 });

@@ -24,7 +24,10 @@ std::optional<Error> checkCommand(const MeshCommand& command) {
   }
   if (std::optional<Error> error = validateOptions(command.options)) return error;
   if (std::optional<Error> error = checkWritable(command.output)) return error;
-  return command.report.empty() ? std::nullopt : checkWritable(command.report);
+  for (const std::string& file : {command.report, command.trace}) {
+    if (std::optional<Error> error = file.empty() ? std::nullopt : checkWritable(file)) return error;
+  }
+  return std::nullopt;
 }
 
 WriteOptions groupNames(const Brep& brep) {
@@ -53,7 +56,9 @@ int run(const MeshCommand& command) {
   const Result<ReadModel> model = loadModel(command.input, progress);
   console.clear();
   if (!model.ok()) return fail(model.error(), command.input);
-  const Result<MeshResult> result = meshSurface(model.value().mesh, command.options, progress);
+  MeshOptions options = command.options;
+  options.trace = !command.trace.empty();
+  const Result<MeshResult> result = meshSurface(model.value().mesh, options, progress);
   console.clear();
   if (!result.ok()) return fail(result.error(), command.input);
 
@@ -66,6 +71,9 @@ int run(const MeshCommand& command) {
   if (const std::optional<Error> error = writeFile(command.output, content)) return fail(*error);
   if (!command.report.empty()) {
     if (const std::optional<Error> error = writeFile(command.report, reportFile(mesh, progress))) return fail(*error);
+  }
+  if (!command.trace.empty()) {
+    if (const std::optional<Error> error = writeFile(command.trace, traceJson(mesh))) return fail(*error);
   }
   if (command.quiet) return kDone;
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
