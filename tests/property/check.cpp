@@ -82,8 +82,8 @@ void expectEqual(std::vector<std::string>& faults, std::int64_t is, std::int64_t
   expect(faults, is == wanted, what + " " + std::to_string(is) + ", not " + std::to_string(wanted));
 }
 
-/// Each edge of the part is a chain of the mesh's edges from its start to its end, with as many elements at each of them
-/// as the edge has faces.
+/// Each edge of the part is a chain of the mesh's edges from its start to its end, with as many elements at each of
+/// them as the edge has faces.
 void checkFeatures(const Brep& brep, const QuadMesh& mesh, const SurfaceCounts& counts,
                    std::vector<std::string>& faults) {
   std::vector<std::map<std::int32_t, int>> ends(brep.edges.size());
@@ -119,7 +119,8 @@ void checkCorners(const InspectResult& input, const QuadMesh& mesh, std::vector<
 }
 
 void checkRecall(const QualityReport& quality, std::vector<std::string>& faults) {
-  // Chords of arcs in few divisions turn by up to the angle that counts, and corners of 45 degrees are a matter of taste.
+  // Chords of arcs in few divisions turn by up to the angle that counts, and corners of 45 degrees are a matter of
+  // taste.
   constexpr double kLeast = 0.9;
   expect(faults, quality.sharpRecall.value_or(1.0) >= kLeast, "sharp edges are lost");
   expect(faults, quality.boundaryRecall.value_or(1.0) >= kLeast, "boundary is lost");

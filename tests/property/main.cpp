@@ -59,7 +59,8 @@ int main(int argc, char** argv) {
                      std::to_string(result.quality.triangles) + " triangles\n";
   for (const std::string& fault : faults) text += "  " + fault + "\n";
   for (const FaceReport& face : result.faces) {
-    if (!face.reason.empty()) text += "  (face " + std::to_string(face.face) + " " + face.method + ": " + face.reason + ")\n";
+    if (!face.reason.empty())
+      text += "  (face " + std::to_string(face.face) + " " + face.method + ": " + face.reason + ")\n";
   }
   std::fputs(text.c_str(), stdout);
   return faults.empty() ? 0 : 1;

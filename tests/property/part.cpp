@@ -92,7 +92,8 @@ void makeRevolution(Case& made, const Polygon& polygon, const std::vector<std::a
   made.name = whole ? "full revolution" : "partial revolution";
   const double offset = random.uniform(1.1, 3.0);
   const double sweep = whole ? 2.0 * math::kPi : random.uniform(0.3, 5.5);
-  const int steps = std::max(3, static_cast<int>(static_cast<double>(pick(random, 16, 48)) * sweep / (2.0 * math::kPi)));
+  const int steps =
+      std::max(3, static_cast<int>(static_cast<double>(pick(random, 16, 48)) * sweep / (2.0 * math::kPi)));
   const std::size_t count = countPoints(polygon);
   for (int step = 0; step < steps + (whole ? 0 : 1); ++step) {
     const double angle = sweep * step / steps;
@@ -152,8 +153,7 @@ void placeAnywhere(TriangleMesh& mesh, Random& random) {
   const Vec3 shift{random.uniform(-2.0, 2.0), random.uniform(-2.0, 2.0), random.uniform(-2.0, 2.0)};
   for (Vec3& p : mesh.positions) {
     const Vec3 q{p.x * math::cos(yaw) - p.y * math::sin(yaw), p.x * math::sin(yaw) + p.y * math::cos(yaw), p.z};
-    const Vec3 r{q.x, q.y * math::cos(pitch) - q.z * math::sin(pitch),
-                 q.y * math::sin(pitch) + q.z * math::cos(pitch)};
+    const Vec3 r{q.x, q.y * math::cos(pitch) - q.z * math::sin(pitch), q.y * math::sin(pitch) + q.z * math::cos(pitch)};
     p = (r + shift) * scale;
   }
 }
@@ -196,8 +196,7 @@ Case makeCase(std::uint64_t seed, const Limits& limits) {
       makeVase(made, random);
   }
   placeAnywhere(made.part, random);
-  made.options.size =
-      diagonalOf(made.part) * limits.smallest * pickLogarithmic(random, 1.0, limits.sizeRange);
+  made.options.size = diagonalOf(made.part) * limits.smallest * pickLogarithmic(random, 1.0, limits.sizeRange);
   made.options.mode = pick(random, 0, 2) == 0 ? Mode::qmorph : Mode::qmcf;
   made.options.allQuad = pick(random, 0, 3) == 0;
   return made;

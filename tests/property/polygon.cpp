@@ -175,7 +175,8 @@ class EarClipper {
     }
     // From the right to the left, so that a bridge never crosses a hole that is still to come.
     for (auto& hole : holes) {
-      std::rotate(hole.begin(), std::max_element(hole.begin(), hole.end(), [this](auto a, auto b) { return at(a).x < at(b).x; }),
+      std::rotate(hole.begin(),
+                  std::max_element(hole.begin(), hole.end(), [this](auto a, auto b) { return at(a).x < at(b).x; }),
                   hole.end());
     }
     std::sort(holes.begin(), holes.end(), [this](const auto& a, const auto& b) { return at(a[0]).x > at(b[0]).x; });

@@ -19,8 +19,8 @@ struct Polygon {
   std::vector<std::vector<Point>> loops;
 };
 
-/// A random polygon: concave ones with spikes, combs with narrow necks, smooth blobs, crescents that end in cusps, rings
-/// that are all but closed, some with holes that come close to other loops. Loops neither cross nor touch.
+/// A random polygon: concave ones with spikes, combs with narrow necks, smooth blobs, crescents that end in cusps,
+/// rings that are all but closed, some with holes that come close to other loops. Loops neither cross nor touch.
 Polygon randomPolygon(Random& random);
 
 /// Triangles on the points of all loops, numbered one after the other; without further points, so mostly needles. Empty
