@@ -38,7 +38,12 @@ void coarsen(Remesher& remesher, const RemeshMesh& mesh) {
   }
 }
 
-void renumber(Remesher& remesher, FaceBoundary& boundary) {
+/// Small meshes fit in the cache whatever their order.
+void renumberIfLarge(Remesher& remesher, const RemeshMesh& mesh, FaceBoundary& boundary) {
+  constexpr std::int32_t kLarge = 10000;
+  std::int32_t vertices = 0;
+  for (std::int32_t v = 0; v < mesh.vertexCount(); ++v) vertices += mesh.isVertexRemoved(v) ? 0 : 1;
+  if (vertices < kLarge) return;
   const std::vector<std::int32_t> newVertex = remesher.renumber();
   for (std::int32_t& v : boundary.firstVertex) v = newVertex[index(v)];
 }
@@ -64,7 +69,7 @@ bool remesh(Remesher& remesher, const RemeshMesh& mesh, FaceBoundary& boundary, 
   for (int round = 0; round < rounds; ++round) {
     if (!progress.report(Stage::background, static_cast<double>(round) / rounds)) return false;
     // The first round makes most of the vertices.
-    if (round <= 1) renumber(remesher, boundary);
+    if (round <= 1) renumberIfLarge(remesher, mesh, boundary);
     remesher.updateSizes();
     const std::int32_t left = remesher.removePoints();
     if (round >= options.iterations && left == 0) break;
@@ -177,7 +182,7 @@ Result<BackgroundResult> buildBackground(const TriangleMesh& mesh, const Brep& b
   if (!result.tooCoarse.empty()) return result;
   remesher.flipEdges();
   remesher.smooth(kSmoothingSweeps);
-  renumber(remesher, boundary);
+  renumberIfLarge(remesher, work, boundary);
   remesher.updateSizes();
   Result<Patch> patch = makePatch(work, boundary, remesher.size(), face);
   if (!patch.ok()) return patch.error();
