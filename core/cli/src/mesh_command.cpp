@@ -10,6 +10,7 @@
 #include "qmcf/io/write.hpp"
 #include "qmcf/pipeline/report_json.hpp"
 #include "report_text.hpp"
+#include "sizing_file.hpp"
 #include "stage_clock.hpp"
 
 namespace qmcf::cli {
@@ -24,7 +25,11 @@ std::optional<Error> checkCommand(const MeshCommand& command) {
   }
   if (std::optional<Error> error = validateOptions(command.options)) return error;
   if (std::optional<Error> error = checkWritable(command.output)) return error;
-  return command.report.empty() ? std::nullopt : checkWritable(command.report);
+  for (const std::string& path : {command.report, command.sizingOut}) {
+    if (path.empty()) continue;
+    if (std::optional<Error> error = checkWritable(path)) return error;
+  }
+  return std::nullopt;
 }
 
 WriteOptions groupNames(const Brep& brep) {
@@ -66,6 +71,10 @@ int run(const MeshCommand& command) {
   if (const std::optional<Error> error = writeFile(command.output, content)) return fail(*error);
   if (!command.report.empty()) {
     if (const std::optional<Error> error = writeFile(command.report, reportFile(mesh, progress))) return fail(*error);
+  }
+  if (!command.sizingOut.empty()) {
+    const std::string sizes = sizingText(model.value(), mesh.vertexSize);
+    if (const std::optional<Error> error = writeFile(command.sizingOut, sizes)) return fail(*error);
   }
   if (command.quiet) return kDone;
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;

@@ -57,6 +57,7 @@ class Preparation {
     sizing_.size = result_.size.base;
     sizing_.quads.reset();
     sizing_.limits = result_.size.limits;
+    sizing_.chordSize = result_.size.chordSize;
     minimum_ = result_.minimumDivisions;
   }
 
