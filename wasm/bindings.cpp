@@ -173,7 +173,7 @@ std::optional<Error> assign(std::vector<FieldStroke>& option, std::string_view n
 template <class Visit>
 void forEachOption(MeshOptions& options, Visit visit) {
   auto& [size, quads, featureAngle, mode, allQuad, repair, gradation, alignBoundary, alignSharp, alignNonManifold,
-         alignCurvature, strokes, threads] = options;
+         alignCurvature, strokes, threads, trace] = options;
   visit("size", size);
   visit("quads", quads);
   visit("featureAngle", featureAngle);
@@ -187,6 +187,7 @@ void forEachOption(MeshOptions& options, Visit visit) {
   visit("alignCurvature", alignCurvature);
   visit("strokes", strokes);
   visit("threads", threads);
+  visit("trace", trace);
 }
 
 /// The error for a key that is no option's name, if there is one.
@@ -387,6 +388,7 @@ val meshValue(const MeshResult& result) {
   out.set("elementScaledJacobian", copyOut(scaledJacobians(result.mesh)));
   out.set("faceNames", faceNames(result.input.brep));
   out.set("report", toJson(result));
+  if (result.trace) out.set("trace", traceJson(result));
   return out;
 }
 

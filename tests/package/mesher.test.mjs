@@ -230,3 +230,29 @@ test('one compiled module serves several meshers, and using disposes of them', a
   two.dispose();
   await assert.rejects(one.inspect(sample('cylinder.obj')), withCode('cancelled'));
 });
+
+test('the history of the front is kept when asked for, and leads to the mesh', async () => {
+  const model = sample('bracket_with_fillets.stl');
+  const plain = await mesher.mesh(model, { quads: 400 });
+  const traced = await mesher.mesh(model, { quads: 400, trace: true });
+  assert.equal(plain.trace, undefined);
+  assert.deepEqual(traced.elements, plain.elements);
+  const { format, faces, unit } = traced.trace;
+  assert.equal(format, 'qmcf-trace');
+  assert.ok(unit > 0);
+  assert.equal(faces.length, traced.report.faces.length);
+  for (const { face, steps } of faces) {
+    let elements = new Set();
+    for (const { boundary, elements: changed = [], removed = [] } of steps) {
+      if (boundary) elements = new Set();
+      removed.forEach((id) => assert.ok(elements.delete(id)));
+      for (let i = 0; i < changed.length; i += 5) elements.add(changed[i]);
+    }
+    const { quads, triangles } = traced.report.faces[face];
+    assert.equal(elements.size, quads + triangles);
+  }
+  const output = inProject('traced.json');
+  const run = native('mesh', `${root}/samples/bracket_with_fillets.stl`, '-o', inProject('traced.obj'), '--quads', '400', '--trace', output, '--quiet');
+  assert.equal(run.status, 0, run.stderr);
+  assert.deepEqual(traced.trace, JSON.parse(readFileSync(output, 'utf8')));
+});

@@ -59,6 +59,7 @@ class Mesh implements MeshResult {
   declare readonly size: number;
   declare readonly elementScaledJacobian: Float64Array;
   declare readonly report: MeshResult['report'];
+  declare readonly trace?: NonNullable<MeshResult['trace']>;
   readonly #mesher: Mesher;
 
   constructor(mesher: Mesher, data: Omit<MeshResult, 'file'>) {

@@ -41,7 +41,7 @@ function call(core: Core, task: Task): Outcome {
   return task.name === 'write' ? core.write(task.input, task.format) : core[task.name](task.input, task.options);
 }
 
-/** Parses the report and lists the buffers of all typed arrays in a result. */
+/** Parses what is JSON and lists the buffers of all typed arrays in a result. */
 function unpack(value: unknown, transfer: ArrayBuffer[]): unknown {
   if (ArrayBuffer.isView(value)) {
     transfer.push(value.buffer as ArrayBuffer);
@@ -52,7 +52,7 @@ function unpack(value: unknown, transfer: ArrayBuffer[]): unknown {
   }
   const entries = Object.entries(value).map(([key, part]) => [
     key,
-    key === 'report' ? (JSON.parse(part as string) as unknown) : unpack(part, transfer),
+    key === 'report' || key === 'trace' ? (JSON.parse(part as string) as unknown) : unpack(part, transfer),
   ]);
   return Object.fromEntries(entries) as unknown;
 }

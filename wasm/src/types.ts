@@ -51,6 +51,8 @@ export interface MeshOptions {
   strokes?: readonly Stroke[] | undefined;
   /** Of the native program, 1 to 256: faces worked on at a time. Ignored here; the mesh does not depend on it. */
   threads?: number | undefined;
+  /** Record how each face is meshed, step by step: {@link MeshResult.trace}. Default false. */
+  trace?: boolean | undefined;
 }
 
 /** The names of all options, for interfaces that are made from them. */
@@ -68,6 +70,7 @@ export const meshOptionNames = [
   'alignCurvature',
   'strokes',
   'threads',
+  'trace',
 ] as const satisfies readonly (keyof MeshOptions)[];
 
 /** Where a run is. */
@@ -349,6 +352,18 @@ export interface FaceReport {
   readonly triangles: number;
 }
 
+/** Edge lengths against the size field that the run worked with. */
+export interface SizeConformity {
+  /** Mean |log2(length / target)|; 0 is perfect. */
+  readonly meanAbsLog2: number;
+  /** 5 % of the edges are shorter, in units of the target. */
+  readonly p5: number;
+  readonly median: number;
+  readonly p95: number;
+  /** Share of the edges between 1/sqrt2 and sqrt2 of the target. */
+  readonly withinSqrt2: number;
+}
+
 /** Everything a person should know about a mesh. */
 export interface MeshReport {
   readonly size: number;
@@ -362,6 +377,8 @@ export interface MeshReport {
   readonly relaxedTogether: boolean;
   /** Nodes that this moved along their edges by more than a tenth of the element size. */
   readonly slidNodes: number;
+  /** The lengths of the mesh's edges in units of the target at their midpoints. */
+  readonly sizeConformity: SizeConformity;
 }
 
 /** The arrays of a quad-dominant mesh. */
@@ -378,6 +395,67 @@ export interface MeshArrays {
   readonly faceNames: readonly string[];
 }
 
+/** What a step of a face's history is; docs/trace.md tells them apart. */
+export type TraceKind =
+  | 'start'
+  | 'star'
+  | 'seed'
+  | 'quad'
+  | 'collision'
+  | 'closure'
+  | 'seam'
+  | 'transition'
+  | 'leftover'
+  | 'paired'
+  | 'triangulated'
+  | 'cleanup'
+  | 'smooth'
+  | 'doublet'
+  | 'pair'
+  | 'collapse'
+  | 'refill'
+  | 'cavity'
+  | 'untangle'
+  | 'subdivision';
+
+/** One change of a face's mesh. What would be empty or 0 is absent. */
+export interface TraceStep {
+  readonly kind: TraceKind;
+  /** Present where the mesh begins anew, without vertices and elements: the loops of the face. */
+  readonly boundary?: readonly (readonly number[])[];
+  /** The front edge that it was made on. */
+  readonly base?: readonly [number, number];
+  /** How desperate the front was, 0 to 2. */
+  readonly pass?: number;
+  /** Attempts since the last step that were rolled back. */
+  readonly undone?: number;
+  /** From and to of front edges that were put off since the last step, the first 32. */
+  readonly failed?: readonly number[];
+  /** Vertex, x, y, z of each vertex that is new or has moved. */
+  readonly vertices?: readonly number[];
+  /** Element and its four corners, -1 for no fourth, of each element that is new or has other corners. */
+  readonly elements?: readonly number[];
+  /** Elements that are gone. */
+  readonly removed?: readonly number[];
+  /** From, to and state of front edges: how many side edges are missing, 0 to 2, or 3 where a seam shall be closed. */
+  readonly states?: readonly number[];
+}
+
+/** How one face was meshed. */
+export interface FaceTrace extends Pick<FaceReport, 'face' | 'method' | 'reason'> {
+  readonly steps: readonly TraceStep[];
+}
+
+/** How all faces were meshed, each by itself. */
+export interface MeshTrace {
+  readonly format: 'qmcf-trace';
+  readonly version: 1;
+  /** The point of the coordinates x, y, z is `origin + unit * (x, y, z)`. */
+  readonly origin: readonly [number, number, number];
+  readonly unit: number;
+  readonly faces: readonly FaceTrace[];
+}
+
 /** Formats that a mesh can be written in; the names are the file name extensions. */
 export const outputFormats = ['obj', 'vtu', 'ply', 'stl', 'msh', 'inp', 'bdf'] as const;
 
@@ -391,6 +469,8 @@ export interface MeshResult extends MeshArrays {
   /** Per element: 1 is a square or an equilateral triangle, 0 or less is unusable. */
   readonly elementScaledJacobian: Float64Array;
   readonly report: MeshReport;
+  /** If the option `trace` asked for it. */
+  readonly trace?: MeshTrace;
   /** The content of a file of this mesh. Errors: `unsupportedOutput`, `cancelled` after the mesher was disposed of. */
   file(format: OutputFormat): Promise<Uint8Array<ArrayBuffer>>;
 }

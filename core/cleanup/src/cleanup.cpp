@@ -48,10 +48,15 @@ std::int64_t cutInverted(EditMesh& mesh) {
 }  // namespace
 
 Result<CleanupResult> cleanUp(const FaceMesh& mesh, const Patch& patch, const TriangleBvh& target,
-                              const CleanupOptions& options, Progress& progress) {
+                              const CleanupOptions& options, Progress& progress, TraceRecorder* trace,
+                              TraceKind start) {
   EditMesh work(mesh);
+  if (trace != nullptr) trace->begin(start, work);
+  const auto note = [trace](TraceKind kind) {
+    if (trace != nullptr) trace->next(kind);
+  };
   const RelaxationTarget where{patch, target, options.sizeScale};
-  TopologicalCleanup topology(work, patch, where, options);
+  TopologicalCleanup topology(work, patch, where, options, trace);
   const auto allVertices = [&] {
     std::vector<VertexId> vertices;
     for (std::size_t i = 0; i < work.vertexCapacity(); ++i) {
@@ -66,6 +71,7 @@ Result<CleanupResult> cleanUp(const FaceMesh& mesh, const Patch& patch, const Tr
   for (std::int32_t round = 0; options.topology && round < options.rounds; ++round) {
     if (!progress.report(Stage::cleanup, 0.7 * round / options.rounds)) return cancelledError();
     const auto vertices = allVertices();
+    note(TraceKind::smooth);
     for (int sweep = 0; sweep < 3; ++sweep) relax(work, vertices, where, kEnough);
     work.commit();
     std::int64_t changes = topology.pass();
@@ -77,15 +83,18 @@ Result<CleanupResult> cleanUp(const FaceMesh& mesh, const Patch& patch, const Tr
     if (changes == 0) break;
   }
   const auto vertices = allVertices();
+  note(TraceKind::smooth);
   for (std::int32_t sweep = 0; sweep < options.sweeps; ++sweep) {
     if (!progress.report(Stage::cleanup, 0.7 + 0.3 * sweep / options.sweeps)) return cancelledError();
     const double largest = relax(work, vertices, where, kEnough);
     work.commit();
     if (largest < kStill) break;
   }
+  note(TraceKind::untangle);
   const std::int64_t turnedOver = untangle(work, where);
   const std::int64_t cuts = options.quadsOnly ? 0 : cutInverted(work);
   if (cuts > 0) untangle(work, where);
+  work.commit();
   CleanupResult result{extract(work, mesh.patchVertex), topology.statistics(), 1.0, {}};
   result.statistics.turnedOver = turnedOver;
   result.statistics.cuts = cuts;

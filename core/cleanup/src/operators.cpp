@@ -39,8 +39,8 @@ double worstAround(const EditMesh& mesh, const std::vector<VertexId>& vertices) 
 }  // namespace
 
 TopologicalCleanup::TopologicalCleanup(EditMesh& mesh, const Patch& patch, const RelaxationTarget& target,
-                                       const CleanupOptions& options)
-    : mesh_(mesh), patch_(patch), target_(target), options_(options) {}
+                                       const CleanupOptions& options, TraceRecorder* trace)
+    : mesh_(mesh), patch_(patch), target_(target), options_(options), trace_(trace) {}
 
 int TopologicalCleanup::excess(VertexId v) const {
   int elements = 0;
@@ -229,15 +229,20 @@ bool TopologicalCleanup::refillAround(VertexId v) {
 
 std::int64_t TopologicalCleanup::pass() {
   std::int64_t changes = 0;
+  note(TraceKind::doublet);
   for (std::size_t i = 0; i < mesh_.vertexCapacity(); ++i) changes += removeDoublet(VertexId(i)) ? 1 : 0;
+  note(TraceKind::pair);
   for (std::size_t i = 0; i < mesh_.halfedgeCapacity(); ++i) changes += pairTriangles(HalfedgeId(i)) ? 1 : 0;
+  note(TraceKind::collapse);
   for (std::size_t i = 0; i < mesh_.halfedgeCapacity(); ++i) changes += collapseDiagonal(HalfedgeId(i)) ? 1 : 0;
+  note(TraceKind::refill);
   for (std::size_t i = 0; i < mesh_.vertexCapacity(); ++i) changes += refillAround(VertexId(i)) ? 1 : 0;
   return changes;
 }
 
 std::int64_t TopologicalCleanup::cavityPass() {
   std::int64_t changes = 0;
+  note(TraceKind::cavity);
   for (std::size_t i = 0; i < mesh_.vertexCapacity(); ++i) changes += remeshCavity(VertexId(i)) ? 1 : 0;
   return changes;
 }

@@ -15,7 +15,8 @@ namespace qmcf {
 /// options.leastShape, or than the worst before if that was less.
 class TopologicalCleanup {
  public:
-  TopologicalCleanup(EditMesh& mesh, const Patch& patch, const RelaxationTarget& target, const CleanupOptions& options);
+  TopologicalCleanup(EditMesh& mesh, const Patch& patch, const RelaxationTarget& target, const CleanupOptions& options,
+                     TraceRecorder* trace);
 
   /// One pass of the small operators over the mesh. Returns the number of changes.
   std::int64_t pass();
@@ -25,6 +26,10 @@ class TopologicalCleanup {
   [[nodiscard]] const CleanupStatistics& statistics() const { return statistics_; }
 
  private:
+  /// What the next commits are, for the trace.
+  void note(TraceKind kind) {
+    if (trace_ != nullptr) trace_->next(kind);
+  }
   /// Elements around a vertex, less the number that makes it regular.
   [[nodiscard]] int excess(VertexId v) const;
   bool removeDoublet(VertexId v);
@@ -45,7 +50,8 @@ class TopologicalCleanup {
   const RelaxationTarget& target_;
   const CleanupOptions& options_;
   CleanupStatistics statistics_;
-  Cavity cavity_;  ///< The region being looked at.
+  TraceRecorder* trace_;  ///< nullptr: nobody wants the history.
+  Cavity cavity_;         ///< The region being looked at.
 };
 
 }  // namespace qmcf

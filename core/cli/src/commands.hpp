@@ -12,6 +12,7 @@ struct MeshCommand {
   std::string input;
   std::string output;
   std::string report;       ///< Empty: none.
+  std::string trace;        ///< Empty: none.
   std::string constraints;  ///< File of strokes; empty: none.
   std::string sizingOut;    ///< File for the target sizes at the input's vertices; empty: none.
   MeshOptions options;

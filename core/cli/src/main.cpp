@@ -57,6 +57,7 @@ void addMesh(CLI::App& app, MeshCommand& command) {
   app.add_flag("--all-quad", command.options.allQuad,
                "Quadrilaterals only: a mesh of twice the size, each element cut up");
   app.add_option("--report", command.report, "Write a report")->type_name("FILE.json");
+  app.add_option("--trace", command.trace, "Write the history of the front, step by step")->type_name("FILE.json");
   app.add_option("--sizing-out", command.sizingOut, "Write the target edge length at each vertex of the model")
       ->type_name("FILE");
   app.add_flag("--quiet", command.quiet, "Print nothing but errors");

@@ -25,9 +25,8 @@ std::optional<Error> checkCommand(const MeshCommand& command) {
   }
   if (std::optional<Error> error = validateOptions(command.options)) return error;
   if (std::optional<Error> error = checkWritable(command.output)) return error;
-  for (const std::string& path : {command.report, command.sizingOut}) {
-    if (path.empty()) continue;
-    if (std::optional<Error> error = checkWritable(path)) return error;
+  for (const std::string& file : {command.report, command.trace, command.sizingOut}) {
+    if (std::optional<Error> error = file.empty() ? std::nullopt : checkWritable(file)) return error;
   }
   return std::nullopt;
 }
@@ -58,7 +57,9 @@ int run(const MeshCommand& command) {
   const Result<ReadModel> model = loadModel(command.input, progress);
   console.clear();
   if (!model.ok()) return fail(model.error(), command.input);
-  const Result<MeshResult> result = meshSurface(model.value().mesh, command.options, progress);
+  MeshOptions options = command.options;
+  options.trace = !command.trace.empty();
+  const Result<MeshResult> result = meshSurface(model.value().mesh, options, progress);
   console.clear();
   if (!result.ok()) return fail(result.error(), command.input);
 
@@ -71,6 +72,9 @@ int run(const MeshCommand& command) {
   if (const std::optional<Error> error = writeFile(command.output, content)) return fail(*error);
   if (!command.report.empty()) {
     if (const std::optional<Error> error = writeFile(command.report, reportFile(mesh, progress))) return fail(*error);
+  }
+  if (!command.trace.empty()) {
+    if (const std::optional<Error> error = writeFile(command.trace, traceJson(mesh))) return fail(*error);
   }
   if (!command.sizingOut.empty()) {
     const std::string sizes = sizingText(model.value(), mesh.vertexSize);

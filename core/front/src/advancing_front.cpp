@@ -33,8 +33,8 @@ constexpr std::size_t kRetryShare = 16;
 
 class Advance {
  public:
-  Advance(const Patch& patch, const CrossField& field, const FrontOptions& options)
-      : front_(patch, field), options_(options) {}
+  Advance(const Patch& patch, const CrossField& field, const FrontOptions& options, TraceRecorder* trace)
+      : front_(patch, field), options_(options), trace_(trace) {}
 
   Result<FrontResult> run(Progress& progress);
 
@@ -42,6 +42,8 @@ class Advance {
   EditMesh& mesh() { return front_.mesh(); }
 
   void startFronts();
+  /// What the next commit will be, for the trace.
+  void note(TraceKind kind, HalfedgeId base, int pass);
   void enqueue(HalfedgeId h);
   void enqueueAround(const std::vector<VertexId>& vertices);
   bool advanceFrom(HalfedgeId h, int pass);
@@ -63,7 +65,12 @@ class Advance {
   FrontStatistics statistics_;
   FrontQueue queue_;
   std::vector<std::int32_t> levels_;
+  TraceRecorder* trace_;  ///< nullptr: nobody wants the history.
 };
+
+void Advance::note(TraceKind kind, HalfedgeId base, int pass) {
+  if (trace_ != nullptr) trace_->next(kind, mesh().origin(base).value, mesh().target(base).value, pass);
+}
 
 void Advance::enqueue(HalfedgeId h) {
   const int wantedLeft = front_.wantedQuads(h);
@@ -71,6 +78,8 @@ void Advance::enqueue(HalfedgeId h) {
   const bool seam = wantedLeft == 0 || wantedRight == 0;
   const int open = (wantedLeft > 1 ? 1 : 0) + (wantedRight > 1 ? 1 : 0);
   queue_.push(h, seam ? -1 : level(h), open);
+  if (trace_ != nullptr)
+    trace_->state(mesh().origin(h), mesh().target(h), seam ? TraceState::seam : static_cast<TraceState>(open));
 }
 
 void Advance::enqueueAround(const std::vector<VertexId>& vertices) {
@@ -112,6 +121,7 @@ bool Advance::advanceFrom(HalfedgeId h, int pass) {
   EditMesh& m = mesh();
   const HalfedgeId following = front_.nextFront(h);
   const int length = front_.loopLength(h, 6).value_or(7);
+  note(TraceKind::closure, h, pass);
   if (length <= 6 && front_.turnsInward(h)) {
     const auto faces = closeLoop(front_, h, length, kLeastQuad[static_cast<std::size_t>(pass)]);
     if (!faces.empty()) {
@@ -125,6 +135,7 @@ bool Advance::advanceFrom(HalfedgeId h, int pass) {
   int wantedRight = front_.wantedQuads(following);
   for (const HalfedgeId apex : {h, following}) {
     if ((apex == h ? wantedLeft : wantedRight) != 0) continue;
+    note(TraceKind::seam, h, pass);
     const VertexId kept = closeSeam(front_, apex, 0.5 * kLeastQuad[static_cast<std::size_t>(pass)]);
     if (!kept.valid()) continue;
     ++statistics_.seams;
@@ -158,8 +169,10 @@ bool Advance::advanceFrom(HalfedgeId h, int pass) {
   std::sort(order.begin(), order.end());
   if (order.size() > kMaxAttempts) order.resize(kMaxAttempts);
   for (const auto& [cost, choice] : order) {
+    note(TraceKind::quad, h, pass);
     if (tryQuad(h, lefts[choice.first], rights[choice.second], pass)) return true;
     ++statistics_.rollbacks;
+    if (trace_ != nullptr) trace_->undone();
   }
   return false;
 }
@@ -217,6 +230,7 @@ bool Advance::tryQuad(HalfedgeId base, const SideProposal& left, const SidePropo
     }
     if (pass + 1 < kPasses && oddLoops(front_, edges) > oddBefore) return undo();
     ++statistics_.collisions;
+    note(TraceKind::collision, base, pass);
   }
   makeDelaunay(front_, {a, b, c, d});
   if (joins) relaxAround({a, b, c, d});
@@ -277,12 +291,16 @@ void Advance::relaxAround(const std::vector<VertexId>& vertices) {
 
 void Advance::startFronts() {
   if (options_.patterns) {
+    if (trace_ != nullptr) trace_->next(TraceKind::star);
     for (const Singularity& singularity : front_.field().singularities) {
-      if (placeStar(front_, singularity)) ++statistics_.stars;
+      if (!placeStar(front_, singularity)) continue;
+      ++statistics_.stars;
+      mesh().commit();
     }
   }
   bool any = false;
   for (std::size_t i = 0; i < mesh().halfedgeCapacity() && !any; ++i) any = front_.isFront(HalfedgeId(i));
+  if (trace_ != nullptr) trace_->next(TraceKind::seed);
   if (!any) placeSeed(front_, options_.seedPlace);
   mesh().commit();
   for (std::size_t i = 0; i < mesh().halfedgeCapacity(); ++i) {
@@ -291,6 +309,7 @@ void Advance::startFronts() {
 }
 
 Result<FrontResult> Advance::run(Progress& progress) {
+  if (trace_ != nullptr) trace_->begin(TraceKind::start, mesh());
   startFronts();
   const double expected = static_cast<double>(front_.patch().surface.triangleCount());
   std::vector<HalfedgeId> failed;
@@ -320,6 +339,7 @@ Result<FrontResult> Advance::run(Progress& progress) {
         }
       } else {
         failed.push_back(h);
+        if (trace_ != nullptr) trace_->failed(mesh().origin(h), mesh().target(h));
       }
       continue;
     }
@@ -332,8 +352,10 @@ Result<FrontResult> Advance::run(Progress& progress) {
     }
     failed.clear();
   }
+  if (trace_ != nullptr) trace_->next(TraceKind::leftover);
   removeFreeVertices(front_);
   statistics_.recombined = pairTriangles(front_);
+  mesh().commit();
   FrontResult result{extract(front_), statistics_};
   result.statistics.quads = 0;
   for (const Element& element : result.mesh.elements) {
@@ -345,8 +367,8 @@ Result<FrontResult> Advance::run(Progress& progress) {
 }  // namespace
 
 Result<FrontResult> advanceFront(const Patch& patch, const CrossField& field, const FrontOptions& options,
-                                 Progress& progress) {
-  return Advance(patch, field, options).run(progress);
+                                 Progress& progress, TraceRecorder* trace) {
+  return Advance(patch, field, options, trace).run(progress);
 }
 
 FrontResult recombinePatch(const Patch& patch) {

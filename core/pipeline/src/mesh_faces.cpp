@@ -81,15 +81,15 @@ bool gotStuck(const FaceMesh& mesh, const Patch& patch) {
 
 /// The front of the chosen mode, before the clean-up. seedPlace: where a front starts that nothing else does.
 Result<FaceMesh> advance(const Patch& patch, const PreparedFaces& prepared, const TriangleBvh& tree, std::size_t face,
-                         Mode mode, double seedPlace, Progress& progress) {
+                         Mode mode, double seedPlace, Progress& progress, TraceRecorder* trace) {
   if (mode == Mode::qmorph) {
-    auto front = advanceMorph(patch, tree, MorphOptions{}, progress);
+    auto front = advanceMorph(patch, tree, MorphOptions{}, progress, trace);
     if (!front) return front.error();
     return std::move(front.value().mesh);
   }
   FrontOptions frontOptions;
   frontOptions.seedPlace = seedPlace;
-  auto front = advanceFront(patch, prepared.fields[face], frontOptions, progress);
+  auto front = advanceFront(patch, prepared.fields[face], frontOptions, progress, trace);
   if (!front) return front.error();
   return std::move(front.value().mesh);
 }
@@ -97,23 +97,27 @@ Result<FaceMesh> advance(const Patch& patch, const PreparedFaces& prepared, cons
 }  // namespace
 
 Result<MeshedFace> meshFace(const TriangleMesh& mesh, const Brep& brep, const PreparedFaces& prepared,
-                            std::int32_t face, const MeshOptions& options, Progress& progress) {
+                            std::int32_t face, const MeshOptions& options, const std::optional<TraceScale>& scale,
+                            Progress& progress) {
   const auto f = static_cast<std::size_t>(face);
   const Patch& patch = prepared.patches[f];
   const TriangleBvh tree = faceTree(mesh, brep.faces[f]);
   MeshedFace result;
   result.report.face = face;
+  std::optional<TraceRecorder> recorder;
+  if (scale) recorder.emplace(result.trace, *scale);
+  TraceRecorder* const trace = recorder ? &*recorder : nullptr;
 
   // A front that got stuck may do better from another start, where the start is free.
   bool isStuck = true;
   Result<FaceMesh> front = FaceMesh{};
   for (std::size_t start = 0; isStuck && start < (brep.faces[f].loops.empty() ? kSeedPlaces.size() : 1); ++start) {
-    front = advance(patch, prepared, tree, f, options.mode, kSeedPlaces[start], progress);
+    front = advance(patch, prepared, tree, f, options.mode, kSeedPlaces[start], progress, trace);
     if (!front) return front.error();
     assert(ledgerCloses(front.value(), mesh, brep, face));
     isStuck = gotStuck(front.value(), patch);
   }
-  auto cleaned = cleanUp(front.value(), patch, tree, CleanupOptions{}, progress);
+  auto cleaned = cleanUp(front.value(), patch, tree, CleanupOptions{}, progress, trace);
   if (!cleaned) return cleaned.error();
   assert(ledgerCloses(cleaned.value().mesh, mesh, brep, face));
   if (cleaned.value().degenerate.empty() && !isStuck) {
@@ -125,7 +129,7 @@ Result<MeshedFace> meshFace(const TriangleMesh& mesh, const Brep& brep, const Pr
   result.report.reason = isStuck ? "the advancing front got stuck and left more than triangles can bridge well"
                                  : "the advancing front left elements without area or turned in on themselves";
   result.tooCoarse = halvedAt(cleaned.value().mesh, cleaned.value().degenerate, face);
-  auto paired = cleanUp(recombinePatch(patch).mesh, patch, tree, CleanupOptions{}, progress);
+  auto paired = cleanUp(recombinePatch(patch).mesh, patch, tree, CleanupOptions{}, progress, trace, TraceKind::paired);
   if (!paired) return paired.error();
   if (paired.value().degenerate.empty()) {
     result.mesh = std::move(paired.value().mesh);
@@ -134,6 +138,10 @@ Result<MeshedFace> meshFace(const TriangleMesh& mesh, const Brep& brep, const Pr
     result.mesh = trianglesOf(patch);
     result.report.method = "triangles";
     result.report.reason += ", and so did pairing triangles";
+    if (trace != nullptr) {
+      EditMesh work(result.mesh);
+      trace->begin(TraceKind::triangulated, work);
+    }
   }
   assert(ledgerCloses(result.mesh, mesh, brep, face));
   count(result.report, result.mesh);
@@ -141,7 +149,7 @@ Result<MeshedFace> meshFace(const TriangleMesh& mesh, const Brep& brep, const Pr
 }
 
 SharedFace shareFace(const MeshedFace& face, const PreparedFaces& prepared) {
-  SharedFace shared{face.mesh, {}, face.report};
+  SharedFace shared{face.mesh, {}, face.report, face.trace};
   for (const std::int32_t v : face.mesh.patchVertex) {
     const Patch& patch = prepared.patches[static_cast<std::size_t>(face.report.face)];
     shared.node.push_back(v == kNone ? kNone : patch.node[VertexId(v)]);
@@ -150,7 +158,8 @@ SharedFace shareFace(const MeshedFace& face, const PreparedFaces& prepared) {
 }
 
 Result<SharedFace> subdivideFace(const TriangleMesh& mesh, const Brep& brep, const PreparedFaces& prepared,
-                                 const MeshedFace& face, const SharedNodes& halved, Progress& progress) {
+                                 const MeshedFace& face, const SharedNodes& halved,
+                                 const std::optional<TraceScale>& scale, Progress& progress) {
   const auto f = static_cast<std::size_t>(face.report.face);
   const Patch& patch = prepared.patches[f];
   const TriangleBvh tree = faceTree(mesh, brep.faces[f]);
@@ -164,10 +173,13 @@ Result<SharedFace> subdivideFace(const TriangleMesh& mesh, const Brep& brep, con
   options.topology = false;
   options.quadsOnly = true;
   options.sizeScale = 0.5;
-  auto relaxed = cleanUp(cut.mesh, patch, tree, options, progress);
+  SharedFace result = shareFace(face, prepared);
+  std::optional<TraceRecorder> recorder;
+  if (scale) recorder.emplace(result.trace, *scale);
+  auto relaxed =
+      cleanUp(cut.mesh, patch, tree, options, progress, recorder ? &*recorder : nullptr, TraceKind::subdivision);
   if (!relaxed) return relaxed.error();
   assert(ledgerCloses(relaxed.value().mesh, mesh, brep, face.report.face));
-  SharedFace result = shareFace(face, prepared);
   result.mesh = std::move(relaxed.value().mesh);
   result.node.resize(result.mesh.positions.size(), kNone);
   for (std::size_t v = 0; v < cut.boundaryEdge.size(); ++v) {

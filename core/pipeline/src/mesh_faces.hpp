@@ -1,7 +1,10 @@
 #pragma once
 
+#include <optional>
+
 #include "prepare.hpp"
 #include "qmcf/mesh/face_mesh.hpp"
+#include "qmcf/mesh/trace.hpp"
 #include "qmcf/pipeline/mesh_surface.hpp"
 #include "shared_nodes.hpp"
 
@@ -12,26 +15,32 @@ struct MeshedFace {
   FaceMesh mesh;
   FaceReport report;
   std::vector<SizeLimit> tooCoarse;  ///< Where the first step failed, with the size that may help.
+  FaceTrace trace;                   ///< Its history, if that was asked for.
 };
 
 /// Advancing front and clean-up; if the front got stuck or left an element that no solver takes, the paired triangles
-/// of the background; failing that, the triangles themselves (H8 of docs/algorithm.md). Errors: cancelled.
+/// of the background; failing that, the triangles themselves (H8 of docs/algorithm.md). The history is recorded in
+/// `scale`, if given. Errors: cancelled.
 Result<MeshedFace> meshFace(const TriangleMesh& mesh, const Brep& brep, const PreparedFaces& prepared,
-                            std::int32_t face, const MeshOptions& options, Progress& progress);
+                            std::int32_t face, const MeshOptions& options, const std::optional<TraceScale>& scale,
+                            Progress& progress);
 
 /// A face's mesh with its ties to the others.
 struct SharedFace {
   FaceMesh mesh;
   std::vector<std::int32_t> node;  ///< Per vertex: the node that it shares with other faces; kNone inside.
   FaceReport report;
+  FaceTrace trace;
 };
 
 /// The mesh of a face as it is. Node numbers are those of the last prepareFaces() or refineFaces().
 SharedFace shareFace(const MeshedFace& face, const PreparedFaces& prepared);
 
 /// The same with every element cut at the middles of its edges, so that only quadrilaterals are left, and relaxed.
-/// halved: the nodes of the boundary with those middles. Errors: cancelled.
+/// halved: the nodes of the boundary with those middles. The history goes on in `scale`, if given.
+/// Errors: cancelled.
 Result<SharedFace> subdivideFace(const TriangleMesh& mesh, const Brep& brep, const PreparedFaces& prepared,
-                                 const MeshedFace& face, const SharedNodes& halved, Progress& progress);
+                                 const MeshedFace& face, const SharedNodes& halved,
+                                 const std::optional<TraceScale>& scale, Progress& progress);
 
 }  // namespace qmcf

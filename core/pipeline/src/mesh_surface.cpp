@@ -64,6 +64,20 @@ MeshedFace omittedFace(std::int32_t face, std::int32_t below) {
   return omitted;
 }
 
+/// Coordinates relative to the smallest ones, in steps of a power of two of about 1 / 100,000 of the part.
+TraceScale traceScale(const TriangleMesh& mesh) {
+  constexpr double kSteps = 131072.0;
+  Vec3 low = mesh.positions.front();
+  Vec3 high = low;
+  for (const Vec3& p : mesh.positions) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+  }
+  int exponent = 0;
+  static_cast<void>(std::frexp(distance(low, high) / kSteps, &exponent));
+  return {low, std::ldexp(1.0, exponent)};
+}
+
 QualityOptions qualityOptions(const MeshOptions& options, double size) {
   QualityOptions quality;
   quality.featureAngle = options.featureAngle;
@@ -82,7 +96,9 @@ class MeshRun {
         options_(options),
         // Where all elements will be cut up, those before are twice as long.
         coarsening_(options.allQuad ? 2.0 : 1.0),
-        progress_(progress) {}
+        progress_(progress) {
+    if (options.trace) scale_ = traceScale(mesh_);
+  }
 
   Result<MeshResult> run() {
     auto preparation = options_.quads ? prepareForCount(*options_.quads) : prepare(options_);
@@ -119,6 +135,7 @@ class MeshRun {
   struct Attempt {
     QuadMesh mesh;
     std::vector<FaceReport> faces;
+    std::vector<FaceTrace> traces;
     bool relaxedTogether = false;
     std::int64_t slidNodes = 0;
     QualityReport quality;
@@ -202,7 +219,7 @@ class MeshRun {
       if (covered_.below[f] != kNone) faces_[f] = omittedFace(face, covered_.below[f]);
     }
     return forEachFace(prepared, prepared.changed, [&](std::int32_t face, Progress& progress) -> std::optional<Error> {
-      auto meshed = meshFace(mesh_, brep_, prepared, face, options_, progress);
+      auto meshed = meshFace(mesh_, brep_, prepared, face, options_, scale_, progress);
       if (!meshed) return meshed.error();
       faces_[static_cast<std::size_t>(face)] = std::move(meshed).value();
       return std::nullopt;
@@ -215,7 +232,7 @@ class MeshRun {
     std::iota(all.begin(), all.end(), 0);
     return forEachFace(prepared, all, [&](std::int32_t face, Progress& progress) -> std::optional<Error> {
       const auto f = static_cast<std::size_t>(face);
-      auto cut = subdivideFace(mesh_, brep_, prepared, faces_[f], shared, progress);
+      auto cut = subdivideFace(mesh_, brep_, prepared, faces_[f], shared, scale_, progress);
       if (!cut) return cut.error();
       faces[f] = std::move(cut).value();
       return std::nullopt;
@@ -249,7 +266,10 @@ class MeshRun {
       if (covered_.turned[f] != 0) turnRound(faces[f].mesh);
     }
     made.mesh = joinFaces(shared, faces);
-    for (const SharedFace& face : faces) made.faces.push_back(face.report);
+    for (SharedFace& face : faces) {
+      made.faces.push_back(std::move(face.report));
+      if (scale_) made.traces.push_back(std::move(face.trace));
+    }
     if (!progress_.report(Stage::quality, 0.0)) return cancelledError();
     made.quality = measureQuality(made.mesh, &mesh_, qualityOptions(options_, result_.size));
     made.limits = tooCoarse(made.mesh, made.quality);
@@ -270,6 +290,7 @@ class MeshRun {
   void keep(Attempt made, const PreparedFaces& prepared) {
     result_.mesh = std::move(made.mesh);
     result_.faces = std::move(made.faces);
+    if (scale_) result_.trace = MeshTrace{*scale_, std::move(made.traces)};
     result_.quality = std::move(made.quality);
     result_.relaxedTogether = made.relaxedTogether;
     result_.slidNodes = made.slidNodes;
@@ -289,6 +310,7 @@ class MeshRun {
   MeshOptions options_;
   double coarsening_;
   Progress& progress_;
+  std::optional<TraceScale> scale_;  ///< Of the trace, if one is asked for.
   CoveredFaces covered_;
   std::vector<MeshedFace> faces_;
 };

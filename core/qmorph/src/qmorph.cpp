@@ -50,8 +50,8 @@ struct QuadPlan {
 
 class Morph {
  public:
-  Morph(const Patch& patch, const TriangleBvh& face, const MorphOptions& options)
-      : morph_(patch, face), options_(options) {}
+  Morph(const Patch& patch, const TriangleBvh& face, const MorphOptions& options, TraceRecorder* trace)
+      : morph_(patch, face), options_(options), trace_(trace) {}
 
   Result<MorphResult> run(Progress& progress);
 
@@ -62,6 +62,8 @@ class Morph {
   FrontMesh& front() { return morph_.front(); }
   [[nodiscard]] FrontState stateOf(HalfedgeId h) const;
   [[nodiscard]] bool wantsSeam(HalfedgeId h) const;
+  /// What the next commit will be, for the trace.
+  void note(TraceKind kind, HalfedgeId base, int pass);
   void enqueue(HalfedgeId h);
   void enqueueAround(const std::vector<VertexId>& vertices);
   void placeSeed();
@@ -86,7 +88,12 @@ class Morph {
   MorphStatistics statistics_;
   StateQueue queue_;
   std::vector<std::int32_t> levels_;  ///< Per half-edge: rows of quads from where the front began.
+  TraceRecorder* trace_;              ///< nullptr: nobody wants the history.
 };
+
+void Morph::note(TraceKind kind, HalfedgeId base, int pass) {
+  if (trace_ != nullptr) trace_->next(kind, mesh().origin(base).value, mesh().target(base).value, pass);
+}
 
 FrontState Morph::stateOf(HalfedgeId h) const {
   return {morph_.front().sectorAngle(h) < kSideThere,
@@ -102,7 +109,10 @@ bool Morph::wantsSeam(HalfedgeId h) const {
 void Morph::enqueue(HalfedgeId h) {
   if (level(h) == kNoLevel) level(h) = 0;
   const bool seam = wantsSeam(h) || wantsSeam(front().nextFront(h));
-  queue_.push(h, seam ? -1 : stateOf(h).rank(), level(h), morph_.length(h));
+  const std::int32_t rank = stateOf(h).rank();
+  queue_.push(h, seam ? -1 : rank, level(h), morph_.length(h));
+  if (trace_ != nullptr)
+    trace_->state(mesh().origin(h), mesh().target(h), seam ? TraceState::seam : static_cast<TraceState>(rank));
 }
 
 void Morph::enqueueAround(const std::vector<VertexId>& vertices) {
@@ -149,6 +159,7 @@ bool Morph::closeBadLoop(HalfedgeId h, const std::vector<VertexId>& corners, dou
 bool Morph::closeSmallLoop(HalfedgeId h, int pass) {
   const auto length = front().loopLength(h, pass == 0 ? 4 : kLargestFilled);
   if (!length || !front().turnsInward(h)) return false;
+  note(TraceKind::closure, h, pass);
   std::vector<VertexId> corners;
   HalfedgeId e = h;
   for (int i = 0; i < *length; ++i, e = front().nextFront(e)) corners.push_back(mesh().origin(e));
@@ -163,7 +174,9 @@ bool Morph::closeSmallLoop(HalfedgeId h, int pass) {
 bool Morph::closeWedge(HalfedgeId apex, int pass) {
   if (!wantsSeam(apex)) return false;
   const double least = 0.5 * kLeastMorph[static_cast<std::size_t>(pass)];
+  note(TraceKind::seam, apex, pass);
   if (morph_.lengthRatio(apex) > options_.largestRatio) {
+    note(TraceKind::transition, apex, pass);
     const auto corners = transitionSeam(morph_, apex, least);
     if (corners.empty()) return false;
     ++statistics_.transitions;
@@ -181,6 +194,7 @@ bool Morph::closeWedge(HalfedgeId apex, int pass) {
 bool Morph::makeTransition(HalfedgeId h, int pass) {
   if (morph_.lengthRatio(h) <= options_.largestRatio || front().sectorAngle(h) >= math::kPi) return false;
   const std::int32_t newLevel = level(h);
+  note(TraceKind::transition, h, pass);
   const HalfedgeId created = transitionSplit(morph_, h, kLeastMorph[static_cast<std::size_t>(pass)]);
   if (!created.valid()) return false;
   ++statistics_.transitions;
@@ -220,8 +234,10 @@ Morph::Outcome Morph::tryQuad(HalfedgeId base, const FrontState& state, const Qu
   const auto undo = [&](Outcome outcome) {
     m.rollback(mark);
     ++statistics_.rollbacks;
+    if (trace_ != nullptr) trace_->undone();
     return outcome;
   };
+  note(TraceKind::quad, base, pass);
 
   VertexId c = state.right ? m.target(following) : VertexId();
   const VertexId d = state.left ? m.origin(previous) : makeSide(base, c, plan.left, plan.halveLeft);
@@ -248,7 +264,10 @@ Morph::Outcome Morph::tryQuad(HalfedgeId base, const FrontState& state, const Qu
   const int oddBefore = joins ? oddLoops(front(), frontEdges()) : 0;
   if (!formElement(front(), corners, kLeastMorph[static_cast<std::size_t>(pass)])) return undo(Outcome::failed);
   if (joins && pass + 1 < kMorphPasses && oddLoops(front(), frontEdges()) > oddBefore) return undo(Outcome::odd);
-  if (joins) ++statistics_.collisions;
+  if (joins) {
+    ++statistics_.collisions;
+    note(TraceKind::collision, base, pass);
+  }
   finish(corners, newLevel);
   return Outcome::done;
 }
@@ -313,12 +332,14 @@ void Morph::placeSeed() {
   }
   if (!best.valid()) return;
   const HalfedgeId t = mesh().twin(best);
+  if (trace_ != nullptr) trace_->next(TraceKind::seed);
   mesh().fill({mesh().next(best), mesh().prev(best), mesh().next(t), mesh().prev(t)},
               {mesh().face(best), mesh().face(t)}, FaceKind::element);
   mesh().commit();
 }
 
 Result<MorphResult> Morph::run(Progress& progress) {
+  if (trace_ != nullptr) trace_->begin(TraceKind::start, mesh());
   placeSeed();
   for (std::size_t i = 0; i < mesh().halfedgeCapacity(); ++i) {
     if (front().isFront(HalfedgeId(i))) enqueue(HalfedgeId(i));
@@ -340,6 +361,7 @@ Result<MorphResult> Morph::run(Progress& progress) {
       if (!front().isFront(h)) continue;
       if (!advanceFrom(h, pass)) {
         failed.push_back(h);
+        if (trace_ != nullptr) trace_->failed(mesh().origin(h), mesh().target(h));
         continue;
       }
       ++formed;
@@ -356,8 +378,10 @@ Result<MorphResult> Morph::run(Progress& progress) {
     }
     failed.clear();
   }
+  if (trace_ != nullptr) trace_->next(TraceKind::leftover);
   removeFreeVertices(front());
   statistics_.recombined = pairTriangles(front());
+  mesh().commit();
   MorphResult result{extract(front()), statistics_};
   for (const Element& element : result.mesh.elements) {
     ++(cornerCount(element) == 4 ? result.statistics.quads : result.statistics.triangles);
@@ -368,8 +392,8 @@ Result<MorphResult> Morph::run(Progress& progress) {
 }  // namespace
 
 Result<MorphResult> advanceMorph(const Patch& patch, const TriangleBvh& face, const MorphOptions& options,
-                                 Progress& progress) {
-  return Morph(patch, face, options).run(progress);
+                                 Progress& progress, TraceRecorder* trace) {
+  return Morph(patch, face, options, trace).run(progress);
 }
 
 }  // namespace qmcf

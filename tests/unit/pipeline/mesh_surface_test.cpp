@@ -8,6 +8,7 @@
 #include <optional>
 #include <utility>
 
+#include "front/trace_replay.hpp"
 #include "qmcf/base/math.hpp"
 #include "qmcf/pipeline/report_json.hpp"
 #include "topology/shapes.hpp"
@@ -235,6 +236,35 @@ TEST(MeshSurface, CanBeCancelledAtAnyReportWithSeveralThreads) {
       ++finished;
     } else {
       EXPECT_EQ(result.error().code, ErrorCode::cancelled);
+    }
+  }
+}
+
+TEST(MeshSurface, RecordsHowEachFaceWasMeshed) {
+  for (const TriangleMesh& part : severalParts()) {
+    for (const auto& [mode, allQuad] : {std::pair{Mode::qmcf, false}, {Mode::qmorph, false}, {Mode::qmcf, true}}) {
+      SilentProgress silent;
+      MeshOptions options;
+      options.quads = 300;
+      options.mode = mode;
+      options.allQuad = allQuad;
+      const auto plain = meshSurface(part, options, silent);
+      options.trace = true;
+      const auto traced = meshSurface(part, options, silent);
+      options.threads = 3;
+      const auto again = meshSurface(part, options, silent);
+      ASSERT_TRUE(plain.ok() && traced.ok() && again.ok());
+      EXPECT_FALSE(plain.value().trace.has_value());
+      EXPECT_EQ(toJson(traced.value()), toJson(plain.value()));
+      EXPECT_EQ(traceJson(again.value()), traceJson(traced.value()));
+      const MeshTrace& trace = *traced.value().trace;
+      ASSERT_EQ(trace.faces.size(), traced.value().faces.size());
+      for (std::size_t f = 0; f < trace.faces.size(); ++f) {
+        testing::TraceReplay replay;
+        for (const TraceStep& step : trace.faces[f].steps) replay.apply(step);
+        EXPECT_EQ(replay.count(true), traced.value().faces[f].quads);
+        EXPECT_EQ(replay.count(false), traced.value().faces[f].triangles);
+      }
     }
   }
 }

@@ -7,6 +7,7 @@
 #include "qmcf/base/result.hpp"
 #include "qmcf/mesh/face_mesh.hpp"
 #include "qmcf/mesh/patch.hpp"
+#include "qmcf/mesh/trace.hpp"
 #include "qmcf/spatial/triangle_bvh.hpp"
 
 namespace qmcf {
@@ -41,8 +42,10 @@ struct CleanupResult {
 
 /// Makes a quad-dominant mesh of one face more regular and its elements squarer. Boundary vertices keep their places,
 /// all others stay on the face, given by `target`, the tree over the face's input triangles (D9, C7 of
-/// docs/algorithm.md). Every change is undone that makes the mesh worse. Errors: cancelled.
+/// docs/algorithm.md). Every change is undone that makes the mesh worse. trace: who records the
+/// history, or nullptr; start: what the mesh is that the clean-up begins with. Errors: cancelled.
 Result<CleanupResult> cleanUp(const FaceMesh& mesh, const Patch& patch, const TriangleBvh& target,
-                              const CleanupOptions& options, Progress& progress);
+                              const CleanupOptions& options, Progress& progress, TraceRecorder* trace = nullptr,
+                              TraceKind start = TraceKind::cleanup);
 
 }  // namespace qmcf

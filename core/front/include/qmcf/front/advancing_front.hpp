@@ -7,6 +7,7 @@
 #include "qmcf/field/cross_field.hpp"
 #include "qmcf/mesh/face_mesh.hpp"
 #include "qmcf/mesh/patch.hpp"
+#include "qmcf/mesh/trace.hpp"
 
 namespace qmcf {
 
@@ -38,9 +39,9 @@ struct FrontResult {
 /// 1999): quads are formed from the front inwards on a working copy of the patch's triangulation, the ends of their
 /// side edges placed by cross field and size field, their edges recovered by swaps. Each quad is a transaction. What
 /// the front can't mesh is left as triangles, of which pairs become quads. The result is conforming, consistently
-/// oriented and keeps the patch's boundary vertices. Errors: cancelled.
+/// oriented and keeps the patch's boundary vertices. trace: who records the history, or nullptr. Errors: cancelled.
 Result<FrontResult> advanceFront(const Patch& patch, const CrossField& field, const FrontOptions& options,
-                                 Progress& progress);
+                                 Progress& progress, TraceRecorder* trace = nullptr);
 
 /// The step of last resort: the patch's triangles, paired to quads where the pair is a good one.
 FrontResult recombinePatch(const Patch& patch);

@@ -35,6 +35,16 @@ class EditMesh {
     std::int32_t facet = kNone;
   };
 
+  /// Is told of every commit, while the journal still is there.
+  class Watcher {
+   public:
+    Watcher() = default;
+    Watcher(const Watcher&) = delete;
+    Watcher& operator=(const Watcher&) = delete;
+    virtual ~Watcher() = default;
+    virtual void onCommit(const EditMesh& mesh) = 0;
+  };
+
   EditMesh() = default;
   /// Copies the surface with all triangles open; vertex, half-edge and face ids are those of the surface.
   EditMesh(const Surface& surface, const IdMap<VertexId, Vec3>& normals);
@@ -126,9 +136,20 @@ class EditMesh {
   void rollback(std::size_t mark);
   /// Forgets the journal: earlier marks become invalid.
   void commit() {
+    if (watcher_ != nullptr) watcher_->onCommit(*this);
     journal_.clear();
     savedVertices_.clear();
   }
+
+  /// Who is told of commits; nullptr: nobody. It must outlive the mesh.
+  void watch(Watcher* watcher) { watcher_ = watcher; }
+  /// What the journal holds, ascending: faces that changed in kind or corners, vertices that moved. Some may be back as
+  /// they were, or gone.
+  struct Changes {
+    std::vector<FaceId> faces;
+    std::vector<VertexId> vertices;
+  };
+  [[nodiscard]] Changes changes() const;
 
  private:
   enum Array : std::uint8_t { kNext, kPrev, kTwin, kOrigin, kFace, kOutgoing, kFaceHalfedge, kFaceKind, kArrayCount };
@@ -156,6 +177,7 @@ class EditMesh {
   IdMap<VertexId, Vertex> vertices_;
   std::vector<Entry> journal_;
   std::vector<Vertex> savedVertices_;
+  Watcher* watcher_ = nullptr;
 };
 
 }  // namespace qmcf

@@ -11,6 +11,7 @@
 #include "qmcf/field/cross_field.hpp"
 #include "qmcf/mesh/patch.hpp"
 #include "qmcf/mesh/quad_mesh.hpp"
+#include "qmcf/mesh/trace.hpp"
 #include "qmcf/mesh/triangle_mesh.hpp"
 #include "qmcf/quality/quality.hpp"
 #include "qmcf/topology/brep.hpp"
@@ -43,6 +44,7 @@ struct MeshOptions {
   /// Faces worked on at a time, 1 to 256. Default: as many as the machine has hardware threads. The mesh does not
   /// depend on it. Ignored where the library is built without threads (WebAssembly).
   std::optional<std::int64_t> threads;
+  bool trace = false;  ///< Record how each face was meshed, step by step: MeshResult::trace.
 };
 
 /// How one face was meshed.
@@ -77,6 +79,12 @@ struct SizeConformity {
   double withinSqrt2 = 0.0;  ///< Share of the edges between 1/sqrt2 and sqrt2.
 };
 
+/// How the faces were meshed, each by itself: up to where their meshes are relaxed together.
+struct MeshTrace {
+  TraceScale scale;              ///< Of the coordinates.
+  std::vector<FaceTrace> faces;  ///< Per face of the B-rep; without steps where it is omitted.
+};
+
 /// A mesh and everything a person should know about it.
 struct MeshResult {
   InspectResult input;
@@ -91,6 +99,7 @@ struct MeshResult {
   /// Whether the faces' meshes were relaxed together, across their edges; if not, because the mesh would not be valid.
   bool relaxedTogether = true;
   std::int64_t slidNodes = 0;  ///< Nodes that this moved along their edges by more than a tenth of the element size.
+  std::optional<MeshTrace> trace;  ///< If it was asked for.
 };
 
 /// Repair and B-rep only; of the options, repair and featureAngle matter. Errors: as repair() and recoverBrep().

@@ -13,5 +13,9 @@ std::string toJson(const QualityReport& report);
 std::string toJson(const InspectResult& result);
 /// {size, quality, faces, repair, fieldSingularities, refinedPlaces, relaxedTogether, slidNodes, sizeConformity}.
 std::string toJson(const MeshResult& result);
+/// The history of the faces as docs/trace.md describes it, one step a line. \pre result.trace
+std::string traceJson(const MeshResult& result);
+/// The history of the faces as docs/trace.md describes it, one step a line. \pre result.trace
+std::string traceJson(const MeshResult& result);
 
 }  // namespace qmcf

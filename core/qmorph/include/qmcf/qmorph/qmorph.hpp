@@ -6,6 +6,7 @@
 #include "qmcf/base/result.hpp"
 #include "qmcf/mesh/face_mesh.hpp"
 #include "qmcf/mesh/patch.hpp"
+#include "qmcf/mesh/trace.hpp"
 #include "qmcf/spatial/triangle_bvh.hpp"
 
 namespace qmcf {
@@ -47,8 +48,8 @@ struct MorphResult {
 /// smoothed after each quad. Neither cross field nor size field are asked. Each quad is a transaction. What the front
 /// can't mesh is left as triangles, of which pairs become quads. The result is conforming, consistently oriented and
 /// keeps the patch's boundary vertices. face: the tree over the face's input triangles, on which moved nodes are put.
-/// Errors: cancelled.
+/// trace: who records the history, or nullptr. Errors: cancelled.
 Result<MorphResult> advanceMorph(const Patch& patch, const TriangleBvh& face, const MorphOptions& options,
-                                 Progress& progress);
+                                 Progress& progress, TraceRecorder* trace = nullptr);
 
 }  // namespace qmcf
