@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
 #include "cavity.hpp"
 #include "operators.hpp"
@@ -12,14 +13,26 @@
 namespace qmcf {
 namespace {
 
-constexpr std::size_t kLargestCavity = 120;
+constexpr std::size_t kLargestCavity = 300;
 /// A pattern may leave elements this bad where there were no worse ones before.
 constexpr double kGoodShape = 0.45;
 /// How much of the mean shape a more regular mesh is worth.
 constexpr double kRegularityWorth = 0.03;
 constexpr double kNoTriangleWorth = 0.1;
 constexpr int kTriangleEnergy = 4;
+/// Energy of two irregular vertices, and how many patterns with two are tried.
+constexpr int kTwoEnergy = 2;
+constexpr std::size_t kMostTries = 6;
+/// How much stretch, summed over the elements, a unit of energy is worth; and how much more of it, and of mean shape, a
+/// pattern may cost before it is relaxed to be tried at all.
+constexpr double kStretchWorth = 1.0;
+constexpr double kPromisedStretch = 6.5;
+constexpr double kPromisedLoss = 0.2;
 constexpr int kSettleSweeps = 12;
+constexpr int kRoughSweeps = 10;  ///< Of these, on the patch.
+/// What is not near enough after so many sweeps is given up: stretch worth a unit of energy then.
+constexpr int kEarlySweep = 2;
+constexpr double kEarlyStretch = 2.5;
 
 /// How much the number of elements of a cavity may change, and the area that it must keep: what is less bridges a limb.
 constexpr double kCountChange = 0.12;
@@ -31,6 +44,48 @@ double meanShape(const EditMesh& mesh, const std::vector<FaceId>& faces) {
   double sum = 0.0;
   for (const FaceId f : faces) sum += faceShape(mesh, f);
   return sum / static_cast<double>(faces.size());
+}
+
+/// Sum over the quadrilaterals of how much longer one pair of sides is than the other: the ratio less 1.
+double stretchOf(const EditMesh& mesh, const std::vector<FaceId>& faces) {
+  double sum = 0.0;
+  for (const FaceId f : faces) {
+    const auto sides = mesh.sides(f);
+    if (!sides[3].valid()) continue;
+    const auto length = [&](std::size_t i) {
+      return distance(mesh.position(mesh.origin(sides[i])), mesh.position(mesh.target(sides[i])));
+    };
+    const double a = length(0) + length(2);
+    const double b = length(1) + length(3);
+    sum += std::max(a, b) / std::min(a, b) - 1.0;
+  }
+  return sum;
+}
+
+/// What a pattern promises before its vertices are on the face and relaxed.
+struct Promise {
+  double stretch = 0.0;    ///< As stretchOf().
+  double meanShape = 0.0;  ///< Of the scaled Jacobians.
+};
+
+Promise promiseOf(const SidePattern& pattern, std::vector<Vec3> positions) {
+  positions.insert(positions.end(), pattern.inner.begin(), pattern.inner.end());
+  Promise promise;
+  for (const auto& cell : pattern.cells) {
+    const auto p = [&](std::size_t i) -> const Vec3& { return positions[static_cast<std::size_t>(cell[i % 4])]; };
+    const double a = distance(p(0), p(1)) + distance(p(2), p(3));
+    const double b = distance(p(1), p(2)) + distance(p(3), p(0));
+    promise.stretch += std::max(a, b) / std::min(a, b) - 1.0;
+    const Vec3 normal = normalized(cross(p(2) - p(0), p(3) - p(1)));
+    double shape = 1.0;
+    for (std::size_t i = 0; i < 4; ++i) {
+      const Vec3 forward = p(i + 1) - p(i);
+      const Vec3 backward = p(i + 3) - p(i);
+      shape = std::min(shape, dot(cross(forward, backward), normal) / (norm(forward) * norm(backward)));
+    }
+    promise.meanShape += shape / static_cast<double>(pattern.cells.size());
+  }
+  return promise;
 }
 
 /// How well elements cover the face.
@@ -120,33 +175,58 @@ bool TopologicalCleanup::fillCavity(const std::vector<HalfedgeId>& loop, const s
   if (triangles % 2 != 0 || energy <= (corners.size() == 4 ? 0 : 1)) return false;
   std::vector<Vec3> outline;
   for (const HalfedgeId h : loop) outline.push_back(mesh_.position(mesh_.origin(h)));
-  const auto pattern = fillSides(outline, corners);
-  if (!pattern) return false;
+  if (const auto pattern = fillSides(outline, corners))
+    return fillWith(*pattern, loop, energy - (corners.size() == 4 ? 0 : 1));
+  if (energy <= kTwoEnergy) return false;
+  const std::vector<SidePattern> patterns = fillSidesByTwo(outline, corners, kMostTries);
+  return std::any_of(patterns.begin(), patterns.end(),
+                     [&](const SidePattern& pattern) { return fillWith(pattern, loop, energy - kTwoEnergy); });
+}
+
+bool TopologicalCleanup::fillWith(const SidePattern& pattern, const std::vector<HalfedgeId>& loop, int drop) {
+  const std::vector<FaceId>& cavity = cavity_.faces();
+  const std::size_t triangles = triangleCount(mesh_, cavity);
   const double count = static_cast<double>(cavity.size()) - 0.5 * static_cast<double>(triangles);
-  if (std::fabs(static_cast<double>(pattern->cells.size()) - count) > kCountChange * count + 1.0) return false;
+  if (std::fabs(static_cast<double>(pattern.cells.size()) - count) > kCountChange * count + 1.0) return false;
 
   const double worstBefore = std::min(triangles > 0 ? options_.leastShape : kGoodShape, worstOf(mesh_, cavity));
   const double meanBefore = meanShape(mesh_, cavity);
+  const double stretchBefore = stretchOf(mesh_, cavity);
+  std::vector<Vec3> outline;
+  for (const HalfedgeId h : loop) outline.push_back(mesh_.position(mesh_.origin(h)));
+  const Promise promise = promiseOf(pattern, std::move(outline));
+  // Written such that a NaN is no promise.
+  if (!(promise.stretch <= stretchBefore + kPromisedStretch * drop)) return false;
+  if (!(promise.meanShape >= meanBefore - kPromisedLoss)) return false;
   const Cover before = coverOf(mesh_, target_.face, cavity);
   const double size = std::sqrt(before.area / count);
+  RelaxationTarget rough = target_;
+  rough.onPatch = true;
   // The old inner vertices are good places to project from.
   std::vector<VertexId> old = cornersOf(mesh_, cavity);
   std::vector<EditMesh::Vertex> inner;
-  for (const Vec3& p : pattern->inner) {
+  for (const Vec3& p : pattern.inner) {
     const auto nearest = std::min_element(old.begin(), old.end(), [&](VertexId a, VertexId b) {
       return squaredNorm(mesh_.position(a) - p) < squaredNorm(mesh_.position(b) - p);
     });
-    inner.push_back(projectVertex(target_, mesh_.vertex(*nearest), p));
+    inner.push_back(projectVertex(rough, mesh_.vertex(*nearest), p));
   }
   const std::size_t mark = mesh_.mark();
-  const std::vector<FaceId> filled = mesh_.fill(loop, cavity, pattern->cells, inner);
+  const std::vector<FaceId> filled = mesh_.fill(loop, cavity, pattern.cells, inner);
   const std::vector<VertexId> moving = cornersOf(mesh_, filled);
-  for (int sweep = 0; sweep < kSettleSweeps; ++sweep) relax(mesh_, moving, target_, kGoodShape);
+  bool isSlim = true;
+  for (int sweep = 0; sweep < kSettleSweeps && isSlim; ++sweep) {
+    relax(mesh_, moving, sweep < kRoughSweeps ? rough : target_, kGoodShape);
+    const bool isLast = sweep + 1 == kSettleSweeps;
+    if (!isLast && sweep != kEarlySweep) continue;
+    const double worth = isLast ? kStretchWorth : kEarlyStretch;
+    isSlim = stretchOf(mesh_, filled) <= stretchBefore + worth * drop;
+  }
   const Cover after = coverOf(mesh_, target_.face, filled);
   const double worth = triangles > 0 ? kNoTriangleWorth : kRegularityWorth;
   const bool covers =
       after.area >= kAreaKept * before.area && after.distance <= std::max(kNear * size, 1.5 * before.distance);
-  if (covers && worstOf(mesh_, filled) >= worstBefore && meanShape(mesh_, filled) >= meanBefore - worth) {
+  if (isSlim && covers && worstOf(mesh_, filled) >= worstBefore && meanShape(mesh_, filled) >= meanBefore - worth) {
     mesh_.commit();
     ++statistics_.cavities;
     return true;

@@ -20,6 +20,10 @@ namespace {
 constexpr double kEnough = 0.6;
 /// A node moves at most so far towards the next one at a time, in units of their distance.
 constexpr double kLongestStep = 0.4;
+/// The tangent at a node is that of the chord between points so far towards its neighbours.
+constexpr double kTangentReach = 0.2;
+/// Divisions don't get shorter than this part of what they were.
+constexpr double kShortest = 0.5;
 /// Shorter moves, in element sizes, do not count.
 constexpr double kStill = 1e-3;
 /// Chords that are nearer to their edge than this, in element sizes, may depart further.
@@ -159,8 +163,7 @@ class JointRelaxation {
   }
 
   /// Arc lengths of the nodes before and after one; on a closed edge they may lie before its start or past its end.
-  [[nodiscard]] std::array<double, 2> neighbours(const Slider& slider) const {
-    const std::vector<double>& s = places_[slider.edge];
+  [[nodiscard]] std::array<double, 2> neighbours(const std::vector<double>& s, const Slider& slider) const {
     const double before = slider.index > 0 ? s[slider.index - 1] : s[s.size() - 2] - edges_[slider.edge].curve.length();
     return {before, s[slider.index + 1]};
   }
@@ -174,10 +177,13 @@ class JointRelaxation {
     const EdgeCurve& curve = edges_[slider.edge].curve;
     std::vector<double>& places = places_[slider.edge];
     const double s = places[slider.index];
-    const auto [before, after] = neighbours(slider);
-    const double back = kLongestStep * (s - before);
-    const double ahead = kLongestStep * (after - s);
-    const Vec3 tangent = normalized(pointAt(curve, s + 0.5 * ahead) - pointAt(curve, s - 0.5 * back));
+    const auto [before, after] = neighbours(places, slider);
+    const auto [firstBefore, firstAfter] = neighbours(edges_[slider.edge].arcLength, slider);
+    const double first = edges_[slider.edge].arcLength[slider.index];
+    const double back = std::clamp(s - before - kShortest * (first - firstBefore), 0.0, kLongestStep * (s - before));
+    const double ahead = std::clamp(after - s - kShortest * (firstAfter - first), 0.0, kLongestStep * (after - s));
+    const Vec3 tangent =
+        normalized(pointAt(curve, s + kTangentReach * (after - s)) - pointAt(curve, s - kTangentReach * (s - before)));
     const double size = sizeAt(occurrences.front());
     const double step = std::clamp(dot(wanted(occurrences) - nodes_[node], tangent), -back, ahead);
     if (!(std::abs(step) > kStill * size)) return false;

@@ -6,6 +6,7 @@
 #include "cavity.hpp"
 #include "qmcf/cleanup/cleanup.hpp"
 #include "qmcf/mesh/edit_mesh.hpp"
+#include "qmcf/mesh/side_pattern.hpp"
 #include "relaxation.hpp"
 
 namespace qmcf {
@@ -42,6 +43,7 @@ class TopologicalCleanup {
   [[nodiscard]] std::vector<int> wantedInside(const std::vector<HalfedgeId>& loop) const;
   bool grow(const std::vector<VertexId>& around);
   bool fillCavity(const std::vector<HalfedgeId>& loop, const std::vector<int>& corners);
+  bool fillWith(const SidePattern& pattern, const std::vector<HalfedgeId>& loop, int drop);
   /// Relaxes around the vertices and keeps the change since mark if no element there has a shape below `least`.
   bool settle(const std::vector<VertexId>& vertices, double least, std::size_t mark);
 

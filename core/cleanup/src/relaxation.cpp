@@ -48,6 +48,13 @@ Vec3 idealCorner(const EditMesh& mesh, HalfedgeId h, const Vec3& normal, double 
 EditMesh::Vertex projectVertex(const RelaxationTarget& target, const EditMesh::Vertex& from, const Vec3& position) {
   constexpr double kMinCosine = 0.3;
   EditMesh::Vertex vertex;
+  if (target.onPatch) {
+    vertex.location = walkToClosest(target.patch.surface, from.location.triangle, position);
+    vertex.position = positionOf(target.patch.surface, vertex.location);
+    vertex.facet = from.facet;
+    vertex.normal = normalized(interpolate(target.patch.surface, target.patch.normal, vertex.location));
+    return vertex;
+  }
   const ClosestPoint closest = target.face.closest(position, from.normal, kMinCosine, from.facet);
   vertex.position = closest.position;
   vertex.facet = closest.triangle;

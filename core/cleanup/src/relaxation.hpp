@@ -13,6 +13,7 @@ struct RelaxationTarget {
   const Patch& patch;       ///< Sizes and normals.
   const TriangleBvh& face;  ///< The face's input triangles.
   double sizeScale = 1.0;   ///< Element length in units of the patch's sizes.
+  bool onPatch = false;     ///< Project on the patch's triangles instead: near, and cheaper, for what is only tried.
 };
 
 /// The place on the face nearest to a position, with normal and location.

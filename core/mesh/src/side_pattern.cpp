@@ -1,7 +1,12 @@
 // Regular and one-singularity patterns of polygonal regions, as in the cavity remeshing of Verma and Suresh 2017.
 #include "qmcf/mesh/side_pattern.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
+#include <utility>
+
+#include "qmcf/base/math.hpp"
 
 namespace qmcf {
 namespace {
@@ -60,8 +65,9 @@ SidePattern gridPattern(const std::vector<Vec3>& loop, const std::vector<int>& c
 }
 
 /// Spokes run from a split of each side to the middle; spoke i is as long as the end of side i - 1 and the start of
-/// side i + 1, so that the grids at the corners fit. Their lengths, or nothing if one is not a whole number above 0.
-std::optional<std::vector<int>> spokeLengths(const std::vector<int>& sides) {
+/// side i + 1, so that the grids at the corners fit. Their lengths, or nothing if one is not a whole number above 0;
+/// `lastMayVanish`: the middle may lie on the last side.
+std::optional<std::vector<int>> spokeLengths(const std::vector<int>& sides, bool lastMayVanish = false) {
   const std::size_t k = sides.size();
   std::vector<int> spokes(k);
   for (std::size_t i = 0; i < k; ++i) {
@@ -72,7 +78,8 @@ std::optional<std::vector<int>> spokeLengths(const std::vector<int>& sides) {
       sum += sign * sides[(i + 1 + 2 * step) % k];
       sign = -sign;
     }
-    if (sum < 2 || sum % 2 != 0) return std::nullopt;
+    const int least = lastMayVanish && i + 1 == k ? 0 : 2;
+    if (sum < least || sum % 2 != 0) return std::nullopt;
     spokes[i] = sum / 2;
   }
   return spokes;
@@ -82,18 +89,30 @@ SidePattern spokePattern(const std::vector<Vec3>& loop, const std::vector<int>& 
                          const std::vector<int>& spokes) {
   const auto count = static_cast<int>(loop.size());
   const std::size_t k = corners.size();
+  const auto before = [k](std::size_t i) { return (i + k - 1) % k; };
   SidePattern pattern;
   Vec3 middle;
-  for (const Vec3& p : loop) middle += p / static_cast<double>(count);
-  const int centre = count;
-  pattern.inner.push_back(middle);
-  const auto before = [k](std::size_t i) { return (i + k - 1) % k; };
+  int centre = count;
+  if (spokes.back() > 0) {
+    for (const Vec3& p : loop) middle += p / static_cast<double>(count);
+    pattern.inner.push_back(middle);
+  } else {
+    centre = (corners.back() + spokes[before(k - 1)]) % count;
+    middle = loop[index(centre)];
+  }
   // Per spoke its vertices from the side to the middle.
   std::vector<std::vector<int>> spoke(k);
   for (std::size_t i = 0; i < k; ++i) {
     const int split = (corners[i] + spokes[before(i)]) % count;
     spoke[i].push_back(split);
+    if (spokes[i] == 0) continue;
+    // Where the middle lies on the last side, the spokes beside it run along that.
+    const bool alongSide = spokes.back() == 0 && (i == 0 || i + 2 == k);
     for (int s = 1; s < spokes[i]; ++s) {
+      if (alongSide) {
+        spoke[i].push_back((split + (i == 0 ? count - s : s)) % count);
+        continue;
+      }
       const double t = static_cast<double>(s) / spokes[i];
       spoke[i].push_back(static_cast<int>(loop.size() + pattern.inner.size()));
       pattern.inner.push_back(loop[index(split)] * (1.0 - t) + middle * t);
@@ -104,6 +123,7 @@ SidePattern spokePattern(const std::vector<Vec3>& loop, const std::vector<int>& 
     // Along side i from its corner to the split, and back along side i - 1 to its split.
     const int width = spokes[before(i)];
     const int height = spokes[i];
+    if (width == 0 || height == 0) continue;
     Grid grid(width, height);
     for (int u = 0; u <= width; ++u) {
       grid.at(u, 0) = (corners[i] + u) % count;
@@ -118,17 +138,138 @@ SidePattern spokePattern(const std::vector<Vec3>& loop, const std::vector<int>& 
   return pattern;
 }
 
+std::vector<int> sideLengths(int count, const std::vector<int>& corners) {
+  std::vector<int> sides;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    sides.push_back((i + 1 < corners.size() ? corners[i + 1] : corners[0] + count) - corners[i]);
+  }
+  return sides;
+}
+
+/// A cut through a loop from vertex `from` to vertex `to`, of so many edges.
+struct Cut {
+  int from = 0;
+  int to = 0;
+  int length = 1;
+};
+
+/// A loop with sums over its vertices, and the length that its edges have on average.
+struct Outline {
+  explicit Outline(const std::vector<Vec3>& positions) : loop(positions), sum(1) {
+    for (std::size_t i = 0; i < 2 * loop.size(); ++i) sum.push_back(sum.back() + loop[i % loop.size()]);
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+      edge += distance(loop[i], loop[(i + 1) % loop.size()]) / static_cast<double>(loop.size());
+    }
+  }
+  [[nodiscard]] int count() const { return static_cast<int>(loop.size()); }
+
+  const std::vector<Vec3>& loop;
+  std::vector<Vec3> sum;  ///< Of the vertices before the i-th, for two rounds.
+  double edge = 0.0;
+};
+
+/// One part of a loop that was cut in two: from a vertex along the loop to another, and back along the cut.
+class Part {
+ public:
+  Part(const Outline& outline, const std::vector<int>& corners, const Cut& cut, bool other)
+      : outline_(outline),
+        begin_(other ? cut.to : cut.from),
+        steps_(((other ? cut.from : cut.to) - begin_ + outline.count()) % outline.count()),
+        cut_(cut.length) {
+    corners_.push_back(0);
+    // The loop's corners that lie between, in the order of the part.
+    const auto first = std::upper_bound(corners.begin(), corners.end(), begin_) - corners.begin();
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      const int corner = corners[(index(static_cast<int>(first)) + i) % corners.size()];
+      const int offset = (corner - begin_ + outline.count()) % outline.count();
+      if (offset > 0 && offset < steps_) corners_.push_back(offset);
+    }
+    corners_.push_back(steps_);
+  }
+
+  [[nodiscard]] int count() const { return steps_ + cut_; }
+  [[nodiscard]] const std::vector<int>& corners() const { return corners_; }
+  /// A vertex of the part's loop: of the whole loop, or past these the inner ones of the cut, counted from its begin.
+  [[nodiscard]] int id(int offset, bool other) const {
+    if (offset <= steps_) return (begin_ + offset) % outline_.count();
+    const int fromEnd = offset - steps_;
+    return outline_.count() + (other ? fromEnd : cut_ - fromEnd) - 1;
+  }
+  [[nodiscard]] Vec3 position(int offset) const {
+    if (offset <= steps_) return outline_.loop[index((begin_ + offset) % outline_.count())];
+    const double t = static_cast<double>(offset - steps_) / cut_;
+    return position(steps_) * (1.0 - t) + position(0) * t;
+  }
+  [[nodiscard]] Vec3 middle() const {
+    const Vec3 along = outline_.sum[index(begin_ + steps_ + 1)] - outline_.sum[index(begin_)];
+    return (along + (position(0) + position(steps_)) * (0.5 * (cut_ - 1))) / count();
+  }
+
+ private:
+  const Outline& outline_;
+  int begin_;
+  int steps_;
+  int cut_;
+  std::vector<int> corners_;
+};
+
+/// How far a line of so many edges is from edges of the length h: the square of the ratio's logarithm.
+double misfit(double length, int edges, double h) {
+  const double ratio = math::log(std::max(length, 1e-3 * h) / (edges * h));
+  return ratio * ratio;
+}
+
+/// How a part can be filled around one vertex.
+struct Filling {
+  double misfit = 0.0;   ///< The sum over the spokes.
+  int centreOnCut = -1;  ///< How far along the part's cut the vertex lies; -1 if it lies inside.
+};
+
+/// Nothing if the part can't be filled so.
+std::optional<Filling> fillingOf(const Part& part, double h) {
+  const auto spokes = spokeLengths(sideLengths(part.count(), part.corners()), true);
+  if (!spokes) return std::nullopt;
+  const std::size_t k = part.corners().size();
+  Filling filling;
+  Vec3 middle = part.middle();
+  if (spokes->back() == 0) {
+    filling.centreOnCut = (*spokes)[k - 2];
+    middle = part.position(part.corners().back() + filling.centreOnCut);
+  }
+  for (std::size_t i = 0; i < k; ++i) {
+    const int split = (part.corners()[i] + (*spokes)[(i + k - 1) % k]) % part.count();
+    if ((*spokes)[i] > 0) filling.misfit += misfit(distance(part.position(split), middle), (*spokes)[i], h);
+  }
+  return filling;
+}
+
+/// Both parts of a cut loop, each filled around one vertex. \pre fillingOf() has a value for both
+SidePattern joinParts(const Outline& outline, const std::vector<int>& corners, const Cut& cut) {
+  SidePattern joined;
+  const Part first(outline, corners, cut, false);
+  for (int s = 1; s < cut.length; ++s) joined.inner.push_back(first.position(first.count() - s));
+  for (const bool other : {false, true}) {
+    const Part part(outline, corners, cut, other);
+    std::vector<Vec3> loop;
+    for (int i = 0; i < part.count(); ++i) loop.push_back(part.position(i));
+    const SidePattern filled =
+        spokePattern(loop, part.corners(), *spokeLengths(sideLengths(part.count(), part.corners()), true));
+    const int firstInner = outline.count() + static_cast<int>(joined.inner.size());
+    for (std::array<int, 4> cell : filled.cells) {
+      for (int& id : cell) id = id < part.count() ? part.id(id, other) : firstInner + id - part.count();
+      joined.cells.push_back(cell);
+    }
+    joined.inner.insert(joined.inner.end(), filled.inner.begin(), filled.inner.end());
+  }
+  return joined;
+}
+
 }  // namespace
 
 std::optional<SidePattern> fillSides(const std::vector<Vec3>& loop, const std::vector<int>& corners) {
   const std::size_t k = corners.size();
   if (k < 3 || k > 5) return std::nullopt;
-  const auto count = static_cast<int>(loop.size());
-  std::vector<int> sides;
-  for (std::size_t i = 0; i < k; ++i) {
-    const int next = i + 1 < k ? corners[i + 1] : corners[0] + count;
-    sides.push_back(next - corners[i]);
-  }
+  const std::vector<int> sides = sideLengths(static_cast<int>(loop.size()), corners);
   if (k == 4) {
     if (sides[0] != sides[2] || sides[1] != sides[3]) return std::nullopt;
     return gridPattern(loop, corners, sides[0], sides[1]);
@@ -136,6 +277,50 @@ std::optional<SidePattern> fillSides(const std::vector<Vec3>& loop, const std::v
   const auto spokes = spokeLengths(sides);
   if (!spokes) return std::nullopt;
   return spokePattern(loop, corners, *spokes);
+}
+
+std::vector<SidePattern> fillSidesByTwo(const std::vector<Vec3>& loop, const std::vector<int>& corners,
+                                        std::size_t most) {
+  constexpr double kLeast = 0.6;  // Edges of a cut, in units of those that would have the loop's mean length.
+  constexpr double kMost = 1.5;
+  const std::size_t k = corners.size();
+  if (k != 2 && k != 4 && k != 6) return {};
+  const auto count = static_cast<int>(loop.size());
+  const std::vector<int> sides = sideLengths(count, corners);
+  const Outline outline(loop);
+  if (!(outline.edge > 0.0)) return {};
+  // The first part has one corner of two or four, three of six; of the others each cut would be met from both sides.
+  const std::size_t apart = k == 6 ? 3 : 1;
+  const std::size_t starts = k == 4 ? 4 : k / 2;
+  std::vector<std::pair<double, Cut>> cuts;
+  for (std::size_t s = 0; s < starts; ++s) {
+    const std::size_t t = (s + apart) % k;
+    for (int a = 1; a < sides[s]; ++a) {
+      for (int b = 1; b < sides[t]; ++b) {
+        Cut cut{(corners[s] + a) % count, (corners[t] + b) % count, 1};
+        const double length = distance(loop[index(cut.from)], loop[index(cut.to)]);
+        const int longest = static_cast<int>(std::ceil(kMost * length / outline.edge));
+        cut.length = std::max(1, static_cast<int>(kLeast * length / outline.edge));
+        // Both parts need loops of even length.
+        if (((cut.to - cut.from + count) % count + cut.length) % 2 != 0) ++cut.length;
+        for (; cut.length <= longest; cut.length += 2) {
+          const auto first = fillingOf(Part(outline, corners, cut, false), outline.edge);
+          if (!first) continue;
+          const auto second = fillingOf(Part(outline, corners, cut, true), outline.edge);
+          if (!second) continue;
+          // The parts run along the cut in opposite directions. Both middles in one place are one vertex.
+          const bool onCut = first->centreOnCut >= 0 && second->centreOnCut >= 0;
+          if (onCut && first->centreOnCut + second->centreOnCut == cut.length) continue;
+          cuts.emplace_back(first->misfit + second->misfit + misfit(length, cut.length, outline.edge), cut);
+        }
+      }
+    }
+  }
+  std::stable_sort(cuts.begin(), cuts.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::vector<SidePattern> patterns;
+  for (std::size_t i = 0; i < std::min(most, cuts.size()); ++i)
+    patterns.push_back(joinParts(outline, corners, cuts[i].second));
+  return patterns;
 }
 
 }  // namespace qmcf

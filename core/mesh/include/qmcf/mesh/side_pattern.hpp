@@ -8,7 +8,7 @@
 
 namespace qmcf {
 
-/// Quadrilaterals that fill a loop of vertices with at most one irregular vertex.
+/// Quadrilaterals that fill a loop of vertices with one or two irregular vertices or none.
 struct SidePattern {
   std::vector<std::array<int, 4>>
       cells;                ///< Corners, counter-clockwise: first the loop's vertices, then the inner ones.
@@ -19,5 +19,12 @@ struct SidePattern {
 /// between four corners, a vertex with three or five quadrilaterals in the middle of three or five. corners: indices
 /// into the loop, ascending. Nothing when the lengths of the sides do not allow it.
 std::optional<SidePattern> fillSides(const std::vector<Vec3>& loop, const std::vector<int>& corners);
+
+/// Fills such a loop with 2, 4 or 6 corners by cutting it in two from side to side and filling each part around one
+/// vertex: two vertices with three quadrilaterals, one with three and one with five, or two with five. Four sides can
+/// be filled so whatever their lengths, if these have an even sum and leave room. The fillings whose lines are nearest
+/// to one length of edge, at most `most` of them, the best first.
+std::vector<SidePattern> fillSidesByTwo(const std::vector<Vec3>& loop, const std::vector<int>& corners,
+                                        std::size_t most);
 
 }  // namespace qmcf
