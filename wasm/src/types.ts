@@ -345,7 +345,7 @@ export interface QualityReport {
 export interface FaceReport {
   readonly face: number;
   /** The step of the ladder that worked. */
-  readonly method: 'qmcf' | 'qmorph' | 'recombined' | 'triangles' | 'omitted';
+  readonly method: 'qmcf' | 'qmorph' | 'recombined' | 'triangles' | 'given' | 'omitted';
   /** Why the earlier steps did not; empty for the first. */
   readonly reason: string;
   readonly quads: number;

@@ -1,4 +1,4 @@
-// Takes pictures of the built page: a part as it was opened, its cross field, its mesh, its quality.
+// Takes pictures of the built page: a part as it was opened, its cross field, its mesh, its quality, its front.
 //
 //   node web/scripts/pictures.mjs MODEL FOLDER [WIDTHxHEIGHT...]     (default 1440x900 390x844)
 //
@@ -41,6 +41,25 @@ const views = {
       await page.getByRole('button', { name: 'Show all settings' }).click(patience);
     }
     await worst.click(patience);
+  },
+  front: async (page) => {
+    const record = page.getByLabel('Record the front');
+    if (!(await record.isVisible())) {
+      const all = page.getByRole('button', { name: 'Show all settings' });
+      if ((await all.isVisible()) && (await all.getAttribute('aria-expanded')) === 'false') {
+        await all.click(patience);
+      }
+      await page.getByText('Features and directions').click(patience);
+    }
+    await record.check(patience);
+    await page.getByRole('button', { name: 'Generate mesh' }).click(patience);
+    const step = page.getByRole('slider', { name: 'Step' });
+    await expect(step).toBeVisible(patience);
+    await step.evaluate((input) => {
+      input.value = String(Math.round(0.45 * Number(input.max)));
+      input.dispatchEvent(new Event('input'));
+    });
+    await page.getByRole('button', { name: 'Fit the view' }).click(patience);
   },
 };
 

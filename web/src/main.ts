@@ -4,6 +4,7 @@ import { Store, type State, type Target } from './state.js';
 import { displayCard } from './ui/display_card.js';
 import { dropZone } from './ui/drop.js';
 import { footer } from './ui/footer.js';
+import { frontPlayer } from './ui/front_player.js';
 import { gallery } from './ui/gallery.js';
 import { icons, mark } from './ui/icons.js';
 import { modelSection, openControl } from './ui/model_section.js';
@@ -41,7 +42,8 @@ const views = viewBar(store, session);
 const app = document.querySelector('#app')!;
 const display = displayCard(store, session);
 const selection = selectionCard(store, goTo);
-app.append(canvas, panel, views, display, selection, fit, gallery(store, session, open), hoverTip(store), dropZone(session));
+const player = frontPlayer(store, (playback) => viewer?.setFront(playback));
+app.append(canvas, panel, views, display, selection, player, fit, gallery(store, session, open), hoverTip(store), dropZone(session));
 
 const viewer = createViewer();
 
@@ -65,9 +67,12 @@ function measureFreeArea(): void {
   const bar = (isSheet ? display.firstElementChild! : views).getBoundingClientRect().bottom;
   const left = isSheet ? 0 : covered.right;
   const bottom = isSheet ? covered.top : height;
-  selection.style.setProperty('--left', `${left}px`);
-  selection.style.setProperty('--bottom', `${height - bottom}px`);
-  viewer?.setFreeArea({ left, top: bar, width: Math.max(80, width - left), height: Math.max(80, bottom - bar) });
+  for (const card of [selection, player]) {
+    card.style.setProperty('--left', `${left}px`);
+    card.style.setProperty('--bottom', `${height - bottom}px`);
+  }
+  const end = player.hidden ? bottom : player.getBoundingClientRect().top;
+  viewer?.setFreeArea({ left, top: bar, width: Math.max(80, width - left), height: Math.max(80, end - bar) });
 }
 
 /** Measures it again whenever something that covers the viewport changes. */
@@ -76,6 +81,7 @@ function trackFreeArea(): void {
   observer.observe(panel);
   observer.observe(canvas);
   observer.observe(display);
+  observer.observe(player);
 }
 
 function draw(state: State, before: State): void {
@@ -92,9 +98,10 @@ function draw(state: State, before: State): void {
   }
   if (view !== before.view || display !== before.display) {
     viewer?.setLook({
-      part: view === 'mesh' ? undefined : { faceColors: display.faceColors, ground: display.crosses },
+      part: view === 'mesh' ? undefined : { faceColors: display.faceColors, ground: display.crosses || view === 'front' },
       field: display.crosses ? display : undefined,
       mesh: view === 'mesh' ? display : undefined,
+      front: view === 'front',
     });
   }
   markTarget(state, before);

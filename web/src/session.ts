@@ -41,19 +41,19 @@ export class Session {
   }
 
   async generate(): Promise<void> {
-    const { model, settings } = this.store.state;
+    const { model, settings, record } = this.store.state;
     if (!model) {
       return;
     }
     await this.run('mesh', 'Generating the mesh', async (mesher, control) => {
       const start = performance.now();
-      const result = await mesher.mesh(model.bytes, optionsOf(settings), control);
+      const result = await mesher.mesh(model.bytes, { ...optionsOf(settings), trace: record }, control);
       const seconds = (performance.now() - start) / 1000;
       const { quads, triangles } = result.report.quality;
       const parts = [format.counted(quads, 'quad'), ...(triangles > 0 ? [format.counted(triangles, 'triangle')] : [])];
       this.store.update({
         mesh: { result, optionsKey: optionsKey(settings), seconds },
-        view: 'mesh',
+        view: record ? 'front' : 'mesh',
         hover: undefined,
         chosen: undefined,
         status: `${parts.join(' and ')} in ${format.duration(seconds)}.`,
@@ -101,7 +101,7 @@ export class Session {
     });
   }
 
-  /** Shows the part, its field or its mesh. */
+  /** Shows the part, its field, its mesh or how that was made. */
   setView(view: View): void {
     const { display } = this.store.state;
     // Elements are seen in the mesh only; faces and edges everywhere.

@@ -1,7 +1,7 @@
 import type { FieldResult, InspectResult, MeshOptions, MeshResult, Mode } from 'qmcf';
 
 /** What the viewport shows. */
-export type View = 'part' | 'field' | 'mesh';
+export type View = 'part' | 'field' | 'mesh' | 'front';
 
 /** A part that was opened and could be read. */
 export interface Model {
@@ -80,6 +80,8 @@ export interface Message {
 export interface State {
   readonly model: Model | undefined;
   readonly settings: Settings;
+  /** Keep how the next mesh is made. */
+  readonly record: boolean;
   readonly view: View;
   readonly display: Display;
   readonly field: Made<FieldResult> | undefined;
@@ -108,6 +110,7 @@ export const initialState: State = {
     alignNonManifold: true,
     alignCurvature: true,
   },
+  record: false,
   view: 'part',
   display: { crosses: false, streamlines: false, constraints: false, faceColors: true, irregular: false, quality: false },
   field: undefined,

@@ -107,6 +107,19 @@ Result<MeshedFace> meshFace(const TriangleMesh& mesh, const Brep& brep, const Pr
   std::optional<TraceRecorder> recorder;
   if (scale) recorder.emplace(result.trace, *scale);
   TraceRecorder* const trace = recorder ? &*recorder : nullptr;
+  if (prepared.given[f] != Given::nothing) {
+    const bool paired = prepared.given[f] == Given::pairs;
+    result.mesh = paired ? recombinePatch(patch).mesh : trianglesOf(patch);
+    result.report.method = "given";
+    result.report.reason = "elements of no size tried gave a valid mesh: the part's own triangles";
+    if (trace != nullptr) {
+      EditMesh work(result.mesh);
+      trace->begin(paired ? TraceKind::paired : TraceKind::triangulated, work);
+    }
+    assert(ledgerCloses(result.mesh, mesh, brep, face));
+    count(result.report, result.mesh);
+    return result;
+  }
 
   // A front that got stuck may do better from another start, where the start is free.
   bool isStuck = true;
@@ -176,11 +189,19 @@ Result<SharedFace> subdivideFace(const TriangleMesh& mesh, const Brep& brep, con
   SharedFace result = shareFace(face, prepared);
   std::optional<TraceRecorder> recorder;
   if (scale) recorder.emplace(result.trace, *scale);
-  auto relaxed =
-      cleanUp(cut.mesh, patch, tree, options, progress, recorder ? &*recorder : nullptr, TraceKind::subdivision);
-  if (!relaxed) return relaxed.error();
-  assert(ledgerCloses(relaxed.value().mesh, mesh, brep, face.report.face));
-  result.mesh = std::move(relaxed.value().mesh);
+  TraceRecorder* const trace = recorder ? &*recorder : nullptr;
+  if (prepared.given[f] != Given::nothing) {
+    result.mesh = cut.mesh;
+    if (trace != nullptr) {
+      EditMesh work(result.mesh);
+      trace->begin(TraceKind::subdivision, work);
+    }
+  } else {
+    auto relaxed = cleanUp(cut.mesh, patch, tree, options, progress, trace, TraceKind::subdivision);
+    if (!relaxed) return relaxed.error();
+    result.mesh = std::move(relaxed.value().mesh);
+  }
+  assert(ledgerCloses(result.mesh, mesh, brep, face.report.face));
   result.node.resize(result.mesh.positions.size(), kNone);
   for (std::size_t v = 0; v < cut.boundaryEdge.size(); ++v) {
     if (cut.boundaryEdge[v].valid()) result.node[v] = nodeHalving(cut.boundaryEdge[v]);

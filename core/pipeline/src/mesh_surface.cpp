@@ -42,6 +42,10 @@ constexpr double kLowestSize = 0.02;
 /// A run that has to make so many times the elements of the first attempt, or twice the faults of the best, is lost.
 constexpr double kMostGrowth = 1.5;
 constexpr std::size_t kFewFaults = 10;
+constexpr double kFewElements = 300.0;
+/// How often faces are made of the part's own triangles before a mesh is given up.
+constexpr int kMaxGivenRounds = 5;
+constexpr std::size_t kMostGiven = 10000;  ///< Triangles of such a face, besides twice the elements.
 /// How often the number of elements asked of the size field is corrected by what the front made of it, and until when.
 /// A large mesh is corrected once, by a mesh of this many elements.
 constexpr int kMaxCorrections = 3;
@@ -115,22 +119,61 @@ class MeshRun {
       auto attempted = attempt(prepared);
       if (!attempted) return attempted.error();
       std::vector<SizeLimit> limits = std::move(attempted.value().limits);
+      // Faces that are poorly covered are made anew as a whole, and count as one fault each.
+      const auto missing = halvedWhereMissing(attempted.value().mesh, attempted.value().quality, brep_);
       const auto elements = static_cast<double>(attempted.value().mesh.elements.size());
-      if (round == 0 || limits.size() < fewest) {
-        fewest = limits.size();
+      const std::size_t faults = limits.size() + (missing.empty() ? 0 : 1);
+      if (round == 0 || faults < fewest) {
+        fewest = faults;
         keep(std::move(attempted).value(), prepared);
       }
+      limits.insert(limits.end(), missing.begin(), missing.end());
       limits = notBelow(limits, kLowestSize * base);
-      if (round == 0) mostElements = kMostGrowth * elements;
-      const bool isLost = elements > mostElements || limits.size() > 2 * fewest + kFewFaults;
-      if (limits.empty() || isLost || round == kMaxRefinements) return std::move(result_);
+      if (round == 0) mostElements = kMostGrowth * elements + kFewElements;
+      const bool isLost = elements > mostElements || faults > 2 * fewest + kFewFaults;
+      if (limits.empty() || isLost || round == kMaxRefinements) break;
       auto refined = refineFaces(mesh_, brep_, options_, std::move(prepared), limits, progress_);
       if (!refined) return refined.error();
       prepared = std::move(refined).value();
     }
+    if (!result_.quality.valid) {
+      if (const auto error = giveTriangles()) return *error;
+    }
+    return std::move(result_);
   }
 
  private:
+  /// Where no size gave a valid mesh, the part's own triangles do, first in pairs, then as they are; whatever fails
+  /// around them follows.
+  std::optional<Error> giveTriangles() {
+    // A fine scan of which a few elements are not valid is not replaced by itself.
+    const std::size_t mostTriangles = kMostGiven + 2 * result_.mesh.elements.size();
+    std::vector<Given> given(brep_.faces.size(), Given::nothing);
+    std::vector<std::int32_t> atFault = facesAtFault(result_.mesh, result_.quality, brep_);
+    for (int round = 0; round < kMaxGivenRounds && !atFault.empty(); ++round) {
+      bool changed = false;
+      for (const std::int32_t face : atFault) {
+        const auto f = static_cast<std::size_t>(face);
+        if (brep_.faces[f].triangles.size() > mostTriangles) continue;
+        Given& of = given[f];
+        changed = changed || of != Given::triangles;
+        of = of == Given::nothing ? Given::pairs : Given::triangles;
+      }
+      if (!changed) break;
+      auto prepared = prepareGiven(mesh_, brep_, options_, sizes_, given, progress_);
+      if (!prepared) return prepared.error();
+      if (const auto error = meshChanged(prepared.value())) return error;
+      auto made = join(prepared.value(), false);
+      if (!made) return made.error();
+      atFault = facesAtFault(made.value().mesh, made.value().quality, brep_);
+      if (countFaults(made.value().quality) < countFaults(result_.quality)) {
+        keep(std::move(made).value(), prepared.value());
+      }
+      if (result_.quality.valid) break;
+    }
+    return std::nullopt;
+  }
+
   /// A mesh of the whole part.
   struct Attempt {
     QuadMesh mesh;
@@ -299,6 +342,7 @@ class MeshRun {
       result_.fieldSingularities += static_cast<std::int64_t>(field.singularities.size());
     }
     result_.refinedPlaces = static_cast<std::int64_t>(prepared.size.limits.size());
+    sizes_ = {prepared.size.base, prepared.size.limits, prepared.minimumDivisions, prepared.size.chordSize};
     result_.sizeConformity = sizeConformity(result_.mesh, prepared, coarsening_);
     result_.vertexSize = sizesAt(inputPositions_, mesh_, prepared.size, coarsening_);
   }
@@ -313,6 +357,7 @@ class MeshRun {
   std::optional<TraceScale> scale_;  ///< Of the trace, if one is asked for.
   CoveredFaces covered_;
   std::vector<MeshedFace> faces_;
+  PreparedSizes sizes_;  ///< Of the mesh that is kept.
 };
 
 Error invalid(std::string message) { return {ErrorCode::invalidOption, std::move(message), {}}; }

@@ -13,6 +13,9 @@ namespace {
 
 /// Each round at least doubles the divisions of an edge that was too coarse, down to the input's own segments.
 constexpr int kMaxDivisionRounds = 12;
+/// Rounds in which faces that are still too coarse get their own triangles, and their neighbours what that makes of
+/// them.
+constexpr int kMaxGivenRounds = 8;
 /// Each round halves the size at the places that are missed.
 constexpr int kMissedRounds = 3;
 /// With ten divisions in a full turn the chords of an arc stay within a tenth of their length of it.
@@ -50,6 +53,29 @@ class Preparation {
     changed_.assign(brep.faces.size(), result_.patches.empty());
     result_.patches.resize(brep.faces.size());
     result_.fields.resize(brep.faces.size());
+    result_.given.resize(brep.faces.size(), Given::nothing);
+    give(std::move(result_.given));
+  }
+
+  /// Some faces are made of the part's own triangles.
+  void give(std::vector<Given> given) {
+    result_.given = std::move(given);
+    asGiven_.assign(brep_.edges.size(), 0);
+    for (std::size_t f = 0; f < result_.given.size(); ++f) {
+      if (result_.given[f] == Given::nothing) continue;
+      for (const BrepLoop& loop : brep_.faces[f].loops) {
+        for (const Coedge& coedge : loop.coedges) asGiven_[static_cast<std::size_t>(coedge.edge)] = 1;
+      }
+    }
+  }
+
+  /// As keepBaseSize(), with what another preparation had.
+  void keepSizes(const PreparedSizes& sizes) {
+    sizing_.size = sizes.base;
+    sizing_.quads.reset();
+    sizing_.limits = sizes.limits;
+    minimum_ = sizes.minimumDivisions;
+    sizing_.chordSize = sizes.chordSize;
   }
 
   /// From now on the base size is what it was, whatever number of elements that makes.
@@ -64,11 +90,11 @@ class Preparation {
   Result<PreparedFaces> run(const std::vector<SizeLimit>& limits) {
     if (const auto error = computeSizes(limits)) return *error;
     int missedRounds = 0;
-    for (int round = 0; round < kMaxDivisionRounds; ++round) {
+    for (int round = 0; round < kMaxDivisionRounds + kMaxGivenRounds; ++round) {
       divide();
       if (const auto error = triangulate()) return *error;
       if (!tooCoarse_.empty()) {
-        if (!raiseMinimum()) break;
+        if (round + 1 >= kMaxDivisionRounds || !raiseMinimum()) giveUnfinished();
       } else if (!missed_.empty() && missedRounds < kMissedRounds) {
         ++missedRounds;
         if (const auto error = computeSizes(missed_)) return *error;
@@ -96,7 +122,7 @@ class Preparation {
   /// Divides the edges; faces whose edges keep their nodes keep their triangulations.
   void divide() {
     const DividedEdges before = std::move(result_.divided);
-    result_.divided = divideEdges(mesh_, brep_, result_.size, minimum_);
+    result_.divided = divideEdges(mesh_, brep_, result_.size, minimum_, asGiven_);
     const DividedEdges& now = result_.divided;
     if (before.edges.empty()) return;
     std::vector<std::int32_t> newNode(before.nodes.size(), kNone);
@@ -144,8 +170,12 @@ class Preparation {
     }
     std::vector<BackgroundResult> built(due.size());
     const auto build = [&](std::size_t i, Progress& progress) -> std::optional<Error> {
-      auto background = buildBackground(mesh_, brep_, static_cast<std::int32_t>(due[i]), result_.size, result_.divided,
-                                        background_, progress);
+      const auto face = static_cast<std::int32_t>(due[i]);
+      if (result_.given[due[i]] != Given::nothing) {
+        built[i].patch = givenTriangles(mesh_, brep_, face, result_.size, result_.divided);
+        return std::nullopt;
+      }
+      auto background = buildBackground(mesh_, brep_, face, result_.size, result_.divided, background_, progress);
       if (!background) return background.error();
       built[i] = std::move(background).value();
       return std::nullopt;
@@ -157,11 +187,21 @@ class Preparation {
     return std::nullopt;
   }
 
+  /// Faces that no number of divisions was enough for get their own triangles.
+  void giveUnfinished() {
+    std::vector<Given> given = std::move(result_.given);
+    for (std::size_t f = 0; f < given.size(); ++f) {
+      if (!done_[f]) given[f] = Given::pairs;
+    }
+    give(std::move(given));
+  }
+
   /// Doubles the lower bounds of the edges that a face found too coarse. Returns whether any could be raised.
   bool raiseMinimum() {
     bool raised = false;
     for (const std::int32_t edge : tooCoarse_) {
       const auto e = static_cast<std::size_t>(edge);
+      if (asGiven_[e] != 0) continue;
       const auto now = static_cast<std::int32_t>(result_.divided.edges[e].nodes.size()) - 1;
       const std::int32_t wanted = 2 * std::max(now, minimum_[e]);
       if (wanted <= minimum_[e]) continue;
@@ -183,6 +223,7 @@ class Preparation {
     }
     const auto solve = [&](std::size_t i, Progress& progress) -> std::optional<Error> {
       const auto f = static_cast<std::size_t>(result_.changed[i]);
+      if (result_.given[f] != Given::nothing) return std::nullopt;
       auto field = computeCrossField(result_.patches[f], kinds, fieldOptions(options_), progress);
       if (!field) return field.error();
       result_.fields[f] = std::move(field).value();
@@ -202,6 +243,7 @@ class Preparation {
   Progress& progress_;
   SizingOptions sizing_;
   BackgroundOptions background_;
+  std::vector<std::uint8_t> asGiven_;    ///< Per edge: divided at the part's own points.
   std::vector<std::int32_t> minimum_;    ///< Per edge: divisions that its faces asked for.
   std::vector<bool> done_;               ///< Per face: the triangulation fits sizes and divisions.
   std::vector<bool> changed_;            ///< Per face: triangulated anew since the start.
@@ -225,6 +267,14 @@ Result<PreparedFaces> refineFaces(const TriangleMesh& mesh, const Brep& brep, co
   Preparation preparation(mesh, brep, options, std::move(prepared), progress);
   preparation.keepBaseSize();
   return preparation.run(limits);
+}
+
+Result<PreparedFaces> prepareGiven(const TriangleMesh& mesh, const Brep& brep, const MeshOptions& options,
+                                   const PreparedSizes& before, const std::vector<Given>& given, Progress& progress) {
+  Preparation preparation(mesh, brep, options, {}, progress);
+  preparation.keepSizes(before);
+  preparation.give(given);
+  return preparation.run({});
 }
 
 }  // namespace qmcf

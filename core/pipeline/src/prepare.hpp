@@ -13,6 +13,9 @@ namespace qmcf {
 /// The number of threads that the options ask for.
 std::int32_t threadsOf(const MeshOptions& options);
 
+/// What a face is made of: elements of the wanted size, or the part's own triangles, which fit whatever else fails.
+enum class Given : std::uint8_t { nothing, pairs, triangles };
+
 /// Everything that the faces need before they can be meshed one by one.
 struct PreparedFaces {
   SizeField size;
@@ -21,6 +24,15 @@ struct PreparedFaces {
   std::vector<CrossField> fields;              ///< One per patch; empty ones in a mode that asks no field.
   std::vector<std::int32_t> minimumDivisions;  ///< Per edge: what its faces asked for, >= 1.
   std::vector<std::int32_t> changed;           ///< Faces that the last call made anew, ascending.
+  std::vector<Given> given;                    ///< Per face.
+};
+
+/// What a preparation was made with.
+struct PreparedSizes {
+  double base = 0.0;
+  std::vector<SizeLimit> limits;
+  std::vector<std::int32_t> minimumDivisions;
+  double chordSize = 0.0;
 };
 
 /// Size field, divided edges, background triangulations and cross fields. Edges whose chords would cut through a face
@@ -33,5 +45,10 @@ Result<PreparedFaces> prepareFaces(const TriangleMesh& mesh, const Brep& brep, c
 /// apart from the numbers of the shared nodes.
 Result<PreparedFaces> refineFaces(const TriangleMesh& mesh, const Brep& brep, const MeshOptions& options,
                                   PreparedFaces prepared, const std::vector<SizeLimit>& limits, Progress& progress);
+
+/// The same, from the beginning, with the sizes and divisions that `before` had, and some faces made of the part's own
+/// triangles; their edges are divided at the part's own points.
+Result<PreparedFaces> prepareGiven(const TriangleMesh& mesh, const Brep& brep, const MeshOptions& options,
+                                   const PreparedSizes& before, const std::vector<Given>& given, Progress& progress);
 
 }  // namespace qmcf

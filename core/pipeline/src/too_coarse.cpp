@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <string_view>
 
@@ -23,6 +24,43 @@ SizeLimit halved(const std::vector<Vec3>& positions, const Element& element, std
 constexpr std::array<std::string_view, 5> kAboutElements{"invertedElements", "facesTurnedOver", "duplicateElements",
                                                          "nonManifoldEdges", "orientationConflicts"};
 
+template <class Visit>
+void forEachElementAtFault(const QualityReport& quality, Visit visit) {
+  for (const ValidityCheck& check : quality.checks) {
+    const bool isAboutElements =
+        std::find(kAboutElements.begin(), kAboutElements.end(), check.name) != kAboutElements.end();
+    if (check.status != CheckStatus::fail || !isAboutElements) continue;
+    for (const std::int64_t id : check.elements) visit(static_cast<std::size_t>(id));
+  }
+}
+
+bool failsToCover(const QualityReport& quality) {
+  return std::any_of(quality.checks.begin(), quality.checks.end(), [](const ValidityCheck& check) {
+    return check.name == "coverage" && check.status == CheckStatus::fail;
+  });
+}
+
+double areaOf(const QuadMesh& mesh, const Element& element) {
+  const auto p = [&](std::size_t i) -> const Vec3& { return mesh.positions[static_cast<std::size_t>(element[i])]; };
+  const bool isQuad = cornerCount(element) == 4;
+  return 0.5 * norm(isQuad ? cross(p(2) - p(0), p(3) - p(1)) : cross(p(1) - p(0), p(2) - p(0)));
+}
+
+/// Per face, whether the area of its mesh is far from that of the face. Omitted faces have nothing to miss.
+std::vector<std::uint8_t> poorlyCovered(const QuadMesh& mesh, const Brep& brep) {
+  constexpr double kMostDifference = 0.15;
+  std::vector<double> areas(brep.faces.size(), 0.0);
+  for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
+    areas[static_cast<std::size_t>(mesh.elementFace[e])] += areaOf(mesh, mesh.elements[e]);
+  }
+  std::vector<std::uint8_t> result(brep.faces.size(), 0);
+  for (std::size_t f = 0; f < areas.size(); ++f) {
+    const double wanted = brep.faces[f].area;
+    result[f] = areas[f] > 0.0 && std::fabs(areas[f] - wanted) > kMostDifference * wanted ? 1 : 0;
+  }
+  return result;
+}
+
 }  // namespace
 
 std::vector<SizeLimit> halvedAt(const FaceMesh& mesh, const std::vector<std::int32_t>& elements, std::int32_t face) {
@@ -35,16 +73,37 @@ std::vector<SizeLimit> halvedAt(const FaceMesh& mesh, const std::vector<std::int
 
 std::vector<SizeLimit> halvedWhereInvalid(const QuadMesh& mesh, const QualityReport& quality) {
   std::vector<SizeLimit> limits;
-  for (const ValidityCheck& check : quality.checks) {
-    const bool isAboutElements =
-        std::find(kAboutElements.begin(), kAboutElements.end(), check.name) != kAboutElements.end();
-    if (check.status != CheckStatus::fail || !isAboutElements) continue;
-    for (const std::int64_t id : check.elements) {
-      const auto e = static_cast<std::size_t>(id);
-      limits.push_back(halved(mesh.positions, mesh.elements[e], mesh.elementFace[e]));
-    }
+  forEachElementAtFault(
+      quality, [&](std::size_t e) { limits.push_back(halved(mesh.positions, mesh.elements[e], mesh.elementFace[e])); });
+  return limits;
+}
+
+std::vector<SizeLimit> halvedWhereMissing(const QuadMesh& mesh, const QualityReport& quality, const Brep& brep) {
+  std::vector<SizeLimit> limits;
+  if (!failsToCover(quality)) return limits;
+  const std::vector<std::uint8_t> poor = poorlyCovered(mesh, brep);
+  for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
+    if (poor[static_cast<std::size_t>(mesh.elementFace[e])] == 0) continue;
+    limits.push_back(halved(mesh.positions, mesh.elements[e], mesh.elementFace[e]));
   }
   return limits;
+}
+
+std::vector<std::int32_t> facesAtFault(const QuadMesh& mesh, const QualityReport& quality, const Brep& brep) {
+  std::vector<std::uint8_t> atFault =
+      failsToCover(quality) ? poorlyCovered(mesh, brep) : std::vector<std::uint8_t>(brep.faces.size(), 0);
+  forEachElementAtFault(quality, [&](std::size_t e) { atFault[static_cast<std::size_t>(mesh.elementFace[e])] = 1; });
+  std::vector<std::int32_t> faces;
+  for (std::size_t f = 0; f < atFault.size(); ++f) {
+    if (atFault[f] != 0) faces.push_back(static_cast<std::int32_t>(f));
+  }
+  return faces;
+}
+
+std::int64_t countFaults(const QualityReport& quality) {
+  std::int64_t count = 0;
+  for (const ValidityCheck& check : quality.checks) count += check.status == CheckStatus::fail ? check.count : 0;
+  return count;
 }
 
 std::vector<SizeLimit> notBelow(const std::vector<SizeLimit>& limits, double lowest) {

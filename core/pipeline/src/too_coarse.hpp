@@ -20,4 +20,13 @@ std::vector<SizeLimit> halvedWhereInvalid(const QuadMesh& mesh, const QualityRep
 /// The limits that ask for at least `lowest`.
 std::vector<SizeLimit> notBelow(const std::vector<SizeLimit>& limits, double lowest);
 
+/// The same for all elements of faces of which much is missing, when the mesh fails to cover the part.
+std::vector<SizeLimit> halvedWhereMissing(const QuadMesh& mesh, const QualityReport& quality, const Brep& brep);
+
+/// Faces with elements that a failing check lists, and those of which much is missing, ascending.
+std::vector<std::int32_t> facesAtFault(const QuadMesh& mesh, const QualityReport& quality, const Brep& brep);
+
+/// Defects of all failing checks together.
+std::int64_t countFaults(const QualityReport& quality);
+
 }  // namespace qmcf

@@ -20,6 +20,7 @@ namespace {
 struct Plan : PlacedCurve {
   std::int32_t least = 1;
   std::int32_t count = 1;
+  bool asGiven = false;  ///< The curve's own points are the nodes.
 };
 
 EdgeSizes sizesOf(const SizeField& size, const BrepEdge& edge, const EdgeCurve& curve, std::size_t e) {
@@ -62,6 +63,12 @@ Plan planEdge(const TriangleMesh& mesh, const BrepEdge& edge, const SizeField& s
   return plan;
 }
 
+/// The curve's own points become the nodes.
+void keepPoints(Plan& plan) {
+  plan.asGiven = true;
+  plan.count = plan.least = static_cast<std::int32_t>(plan.curve.points.size()) - 1;
+}
+
 /// Of edges between the same two vertices only one may stay undivided: they would be one edge of the mesh.
 void separateParallelEdges(std::vector<Plan>& plans, const Brep& brep) {
   std::vector<std::array<std::int32_t, 3>> byEnds;  // Both ends, ascending, and the edge.
@@ -78,8 +85,11 @@ void separateParallelEdges(std::vector<Plan>& plans, const Brep& brep) {
     for (std::size_t k = i + 1; k < end; ++k) {
       if (planOf(k).wanted() < planOf(shortest).wanted()) shortest = k;
     }
+    for (std::size_t k = i; k < end; ++k) {
+      if (planOf(k).asGiven && planOf(k).count == 1) shortest = k;
+    }
     for (; i < end; ++i) {
-      if (i == shortest) continue;
+      if (i == shortest || planOf(i).asGiven) continue;
       planOf(i).least = std::max(planOf(i).least, 2);
       planOf(i).count = std::max(planOf(i).count, 2);
     }
@@ -97,7 +107,10 @@ void settleGroups(std::vector<Plan>& plans, const std::vector<std::vector<std::i
     }
     const double mean = sum / static_cast<double>(group.size());
     const auto count = std::max(least, static_cast<std::int32_t>(std::floor(mean + 0.5)));
-    for (const std::int32_t e : group) plans[static_cast<std::size_t>(e)].count = count;
+    for (const std::int32_t e : group) {
+      Plan& plan = plans[static_cast<std::size_t>(e)];
+      if (!plan.asGiven) plan.count = count;
+    }
   }
 }
 
@@ -161,9 +174,12 @@ std::int64_t makeEven(std::vector<Plan>& plans, const Brep& brep,
   std::vector<Step> steps;
   for (const auto& group : groups) {
     for (const std::int32_t e : group) grouped[static_cast<std::size_t>(e)] = true;
-    steps.push_back(stepOf(plans, group));
+    const bool isFixed = std::any_of(group.begin(), group.end(),
+                                     [&](std::int32_t e) { return plans[static_cast<std::size_t>(e)].asGiven; });
+    if (!isFixed) steps.push_back(stepOf(plans, group));
   }
   for (std::size_t e = 0; e < plans.size(); ++e) {
+    if (plans[e].asGiven) continue;
     steps.push_back(stepOf(plans, {static_cast<std::int32_t>(e)}));
     if (grouped[e]) steps.back().cost += kBrokenGroup;
   }
@@ -206,14 +222,16 @@ void fillSmallLoops(std::vector<Plan>& plans, const Brep& brep) {
         sum += plan(c).count;
         if (plan(c).wanted() > plan(longest).wanted()) longest = c;
       }
-      if (sum < 3 && !loop.coedges.empty()) plans[static_cast<std::size_t>(loop.coedges[longest].edge)].count += 2;
+      // The points of a given edge are enough: two neighbouring points have one edge of the part between them.
+      if (sum < 3 && !loop.coedges.empty() && !plans[static_cast<std::size_t>(loop.coedges[longest].edge)].asGiven)
+        plans[static_cast<std::size_t>(loop.coedges[longest].edge)].count += 2;
     }
   }
 }
 
 void placeNodes(DividedEdges& divided, const Plan& plan, const BrepEdge& edge) {
   EdgeDivision division;
-  division.arcLength = placeNodesOnCurve(plan, plan.count).arcLength;
+  division.arcLength = plan.asGiven ? plan.curve.arcLength : placeNodesOnCurve(plan, plan.count).arcLength;
   for (std::size_t i = 0; i < division.arcLength.size(); ++i) {
     const double s = division.arcLength[i];
     const double h = interpolate(plan.sizes.arcLength, plan.sizes.value, s);
@@ -226,7 +244,7 @@ void placeNodes(DividedEdges& divided, const Plan& plan, const BrepEdge& edge) {
       division.nodes.push_back(node);
     } else {
       division.nodes.push_back(static_cast<std::int32_t>(divided.nodes.size()));
-      divided.nodes.push_back(plan.curve.at(s));
+      divided.nodes.push_back(plan.asGiven ? plan.curve.points[i] : plan.curve.at(s));
       divided.nodeSize.push_back(h);
     }
   }
@@ -236,12 +254,13 @@ void placeNodes(DividedEdges& divided, const Plan& plan, const BrepEdge& edge) {
 }  // namespace
 
 DividedEdges divideEdges(const TriangleMesh& mesh, const Brep& brep, const SizeField& size,
-                         const std::vector<std::int32_t>& minimumDivisions) {
+                         const std::vector<std::int32_t>& minimumDivisions, const std::vector<std::uint8_t>& asGiven) {
   std::vector<Plan> plans;
   std::vector<double> wanted;
   for (std::size_t e = 0; e < brep.edges.size(); ++e) {
     const std::int32_t minimum = e < minimumDivisions.size() ? minimumDivisions[e] : 1;
     plans.push_back(planEdge(mesh, brep.edges[e], size, e, minimum));
+    if (e < asGiven.size() && asGiven[e] != 0) keepPoints(plans.back());
     wanted.push_back(std::max(plans.back().wanted(), static_cast<double>(plans.back().least)));
   }
   separateParallelEdges(plans, brep);

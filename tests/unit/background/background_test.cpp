@@ -260,6 +260,41 @@ TEST(Background, NarrowStripIsMeshedWithoutInnerVertices) {
   for (const Patch& patch : r.patches) checkPatch(r, patch);
 }
 
+TEST(Background, GivenTrianglesAreTheFacesOwn) {
+  for (const TriangleMesh& mesh : {parts::box(4.0, 0.05, 4.0), parts::cylinderSide(40, 1, 1.0, 3.0),
+                                   parts::plateWithHole(5.0, {3, 1, 0}, 0.5, 64)}) {
+    Remeshed r;
+    r.mesh = mesh;
+    r.brep = parts::brepOf(mesh);
+    SizingOptions options;
+    options.size = 0.7;
+    SilentProgress progress;
+    r.field = computeSizeField(r.mesh, r.brep, options, progress).value();
+    r.divided = divideEdges(r.mesh, r.brep, r.field, {}, std::vector<std::uint8_t>(r.brep.edges.size(), 1));
+    for (std::size_t f = 0; f < r.brep.faces.size(); ++f) {
+      const Patch patch = givenTriangles(r.mesh, r.brep, static_cast<std::int32_t>(f), r.field, r.divided);
+      EXPECT_EQ(foundLoops(patch), wantedLoops(r, r.brep.faces[f]));
+      EXPECT_EQ(patch.surface.triangleCount(), r.brep.faces[f].triangles.size());
+      EXPECT_NEAR(areaOf(patch), r.brep.faces[f].area, 1e-12 * r.brep.faces[f].area);
+      std::int32_t corners = 0;
+      for (const VertexId v : patch.surface.vertices()) {
+        EXPECT_NEAR(norm(patch.normal[v]), 1.0, 1e-12);
+        EXPECT_GT(patch.size[v], 0.0);
+        corners += patch.cornerQuads[v] == 1 ? 1 : 0;
+        const std::int32_t node = patch.node[v];
+        EXPECT_EQ(node != kNone, patch.surface.isBoundary(v));
+        if (node == kNone) continue;
+        EXPECT_EQ(r.divided.nodes[static_cast<std::size_t>(node)], patch.surface.position(v));
+      }
+      std::int32_t wanted = 0;
+      for (const BrepLoop& loop : r.brep.faces[f].loops) {
+        for (const Coedge& coedge : loop.coedges) wanted += coedge.cornerQuads == 1 ? 1 : 0;
+      }
+      EXPECT_EQ(corners, wanted);
+    }
+  }
+}
+
 TEST(Background, IsTheSameEveryTime) {
   const Remeshed a = remesh(parts::cylinderSide(40, 1, 1.0, 3.0), 0.3);
   const Remeshed b = remesh(parts::cylinderSide(40, 1, 1.0, 3.0), 0.3);

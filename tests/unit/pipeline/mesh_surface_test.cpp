@@ -149,6 +149,18 @@ TEST(MeshSurface, PutsSmallerElementsWhereLargeOnesCanNotFollow) {
   EXPECT_EQ(mesh(shapes::cubeSoup(1), 600).refinedPlaces, 0);
 }
 
+TEST(MeshSurface, CoversARingThatTheSizeAskedForMisses) {
+  // Elements of this size go straight through the ring.
+  SilentProgress silent;
+  MeshOptions options;
+  options.size = 9.0;
+  const auto result = meshSurface(shapes::torus(32, 16, 10.0, 3.0), options, silent);
+  ASSERT_TRUE(result.ok());
+  EXPECT_TRUE(result.value().quality.valid);
+  const double area = 4.0 * math::kPi * math::kPi * 10.0 * 3.0;
+  EXPECT_GT(result.value().quality.area, 0.8 * area);
+}
+
 TEST(MeshSurface, MeshesOneOfTwoLayersThatElementsCanNotTellApart) {
   // A plate of three by three cells with a second layer over the middle one, hardly above it.
   TriangleMesh plate = shapes::square(3);

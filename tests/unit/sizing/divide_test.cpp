@@ -233,6 +233,36 @@ TEST(DivideEdges, NodesLieOnTheEdgeAtEqualPartsOfTheIntegral) {
   }
 }
 
+TEST(DivideEdges, GivenEdgesKeepTheirOwnPoints) {
+  // The outline is cut as the size asks, the hole at its own 64 points, and the parity is made up for elsewhere.
+  const TriangleMesh mesh = parts::plateWithHole(5.0, {3.0, 1.0, 0.0}, 0.5, 63);
+  const Brep brep = parts::brepOf(mesh);
+  SizingOptions options;
+  options.size = 1.0;
+  SilentProgress progress;
+  const Result<SizeField> size = computeSizeField(mesh, brep, options, progress);
+  ASSERT_TRUE(size.ok());
+  std::vector<std::uint8_t> asGiven(brep.edges.size(), 0);
+  std::size_t round = brep.edges.size();
+  for (std::size_t e = 0; e < brep.edges.size(); ++e) {
+    if (brep.edges[e].points.size() > 20) round = e;
+  }
+  ASSERT_LT(round, brep.edges.size());
+  asGiven[round] = 1;
+  const DividedEdges divided = divideEdges(mesh, brep, size.value(), {}, asGiven);
+  EXPECT_EQ(divided.oddFaces, 0);
+  const BrepEdge& edge = brep.edges[round];
+  const EdgeDivision& division = divided.edges[round];
+  ASSERT_EQ(division.nodes.size(), edge.points.size());
+  for (std::size_t i = 0; i < division.nodes.size(); ++i) {
+    EXPECT_EQ(divided.nodes[static_cast<std::size_t>(division.nodes[i])],
+              mesh.positions[static_cast<std::size_t>(edge.points[i])]);
+  }
+  for (std::size_t e = 0; e < brep.edges.size(); ++e) {
+    EXPECT_GE(divided.edges[e].nodes.size(), 4U);
+  }
+}
+
 TEST(DivideEdges, IsTheSameEveryTime) {
   const Divided a = divide(parts::plateWithHole(5.0, {3.0, 1.0, 0.0}, 0.5, 64), 0.3);
   const Divided b = divide(parts::plateWithHole(5.0, {3.0, 1.0, 0.0}, 0.5, 64), 0.3);

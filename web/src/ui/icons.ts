@@ -15,6 +15,12 @@ export const icons = {
   zoom: () => svg(icon('<circle cx="8.5" cy="8.5" r="5"/><path d="m12.2 12.2 4.3 4.3M8.5 6.5v4M6.5 8.5h4"/>')),
   close: () => svg(icon('<path d="m5 5 10 10M15 5 5 15"/>')),
   download: () => svg(icon('<path d="M10 4v9M6.5 9.5 10 13l3.5-3.5M4 13.5V16h12v-2.5"/>')),
+  play: () => svg(icon('<path d="M7 4.5v11l8.5-5.5z" fill="currentColor"/>')),
+  pause: () => svg(icon('<path d="M7 5v10M13 5v10" stroke-width="2.6"/>')),
+  stepBack: () => svg(icon('<path d="M12.5 5v10L6 10z" fill="currentColor"/>')),
+  stepForward: () => svg(icon('<path d="M7.5 5v10l6.5-5z" fill="currentColor"/>')),
+  previousEvent: () => svg(icon('<path d="M4.5 5v10M14.5 5v10L8 10z" fill="currentColor"/>')),
+  nextEvent: () => svg(icon('<path d="M15.5 5v10M5.5 5v10l6.5-5z" fill="currentColor"/>')),
   check: () => svg(icon('<path d="m4.5 10.5 3.5 3.5 7.5-8"/>')),
   warn: () => svg(icon('<path d="M10 3.5 17 16H3zM10 8v3.5M10 13.8v.1"/>')),
 };

@@ -41,7 +41,13 @@ export function optionsSection(store: Store, session: Session): HTMLElement {
   const id = uniqueId();
   const mode = el('select', { id }, ...modes.map(([value, label]) => el('option', { value }, label)));
   mode.addEventListener('change', () => session.changeSettings({ mode: mode.value as Mode }));
-  store.subscribe(({ settings }) => {
+  const record = toggle(
+    'Record the front',
+    (on) => store.update({ record: on }),
+    'Keep how each face is meshed, to be played step by step.',
+  );
+  store.subscribe(({ settings, record: isRecorded }) => {
+    record.input.checked = isRecorded;
     angle.set(String(settings.featureAngle));
     gradation.set(String(settings.gradation));
     mode.value = settings.mode;
@@ -55,6 +61,7 @@ export function optionsSection(store: Store, session: Session): HTMLElement {
     el('summary', {}, 'Features and directions'),
     el('div', { class: 'pair' }, angle.element, gradation.element),
     el('div', { class: 'field' }, el('label', { for: id }, 'Advancing front'), mode),
+    record.element,
     el(
       'fieldset',
       {},

@@ -20,6 +20,7 @@ export const methodNames: Record<FaceReport['method'], string> = {
   qmorph: 'Q-Morph',
   recombined: 'paired triangles',
   triangles: 'triangles only',
+  given: 'the part’s own triangles',
   omitted: 'left out',
 };
 

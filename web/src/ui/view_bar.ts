@@ -6,9 +6,10 @@ const views: readonly (readonly [View, string])[] = [
   ['part', 'Part'],
   ['field', 'Field'],
   ['mesh', 'Mesh'],
+  ['front', 'Front'],
 ];
 
-/** Switches between the part, its field and its mesh. */
+/** Switches between the part, its field, its mesh and, where that was recorded, how it was made. */
 export function viewBar(store: Store, session: Session): HTMLElement {
   const buttons = views.map(
     ([view, label]) => [view, button(label, { 'aria-pressed': 'false' }, () => session.setView(view))] as const,
@@ -19,6 +20,7 @@ export function viewBar(store: Store, session: Session): HTMLElement {
     for (const [view, b] of buttons) {
       b.setAttribute('aria-pressed', String(view === state.view));
       b.disabled = view === 'mesh' && !state.mesh;
+      show(b, view !== 'front' || state.mesh?.result.trace !== undefined);
     }
   });
   return element;

@@ -17,6 +17,13 @@ export interface Palette {
   readonly removedPin: Color;
   /** What the pointer is on, or what was chosen. */
   readonly highlight: Color;
+  /** Edges of the front by how many side edges are missing, 0 to 2, and those to be closed by a seam. */
+  readonly frontStates: readonly Color[];
+  /** Edges of the front that were put off. */
+  readonly failedFront: Color;
+  /** Elements of the history: those of the last step, and the others. */
+  readonly freshElement: Color;
+  readonly grownElement: Color;
   readonly positive: Color;
   readonly negative: Color;
   readonly ring: Color;
@@ -60,6 +67,10 @@ export const lightPalette: Palette = {
   pinnedCross: new Color('#07806a'),
   pins: ['#4a5b54', '#0a7f66', '#17211d', '#a3238f', '#2a50d0', '#c05a00'].map((color) => new Color(color)),
   removedPin: new Color('#e0141f'),
+  frontStates: ['#0a9a5c', '#2f6be0', '#5b3fc4', '#c2188f'].map((color) => new Color(color)),
+  failedFront: new Color('#e0141f'),
+  freshElement: new Color('#ffd34d'),
+  grownElement: new Color('#a3dbd2'),
   skyLight: new Color('#ffffff'),
   groundLight: new Color('#9fa9a6'),
 };
@@ -76,6 +87,10 @@ export const darkPalette: Palette = {
   pinnedCross: new Color('#006c56'),
   pins: ['#1f2b27', '#5ff0c6', '#050807', '#ff7be9', '#1733a8', '#8a3d00'].map((color) => new Color(color)),
   removedPin: new Color('#c00012'),
+  frontStates: ['#2fe08f', '#6ea4ff', '#a78bff', '#ff6ad0'].map((color) => new Color(color)),
+  failedFront: new Color('#ff4a5c'),
+  freshElement: new Color('#e0b030'),
+  grownElement: new Color('#5f938a'),
   skyLight: new Color('#ffffff'),
   groundLight: new Color('#59625d'),
 };

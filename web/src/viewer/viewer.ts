@@ -1,9 +1,11 @@
 import { DirectionalLight, HemisphereLight, MathUtils, PerspectiveCamera, Scene, Vector3, WebGLRenderer } from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 import type { FieldResult, InspectResult, MeshResult } from 'qmcf';
+import type { Playback } from '../replay.js';
 import type { Target } from '../state.js';
 import { FieldLayer, type FieldLook } from './field_layer.js';
 import { Frame } from './frame.js';
+import { FrontLayer } from './front_layer.js';
 import { HighlightLayer, placeOf } from './highlight_layer.js';
 import { Inspector } from './inspector.js';
 import { MeshLayer, type MeshLook } from './mesh_layer.js';
@@ -23,6 +25,7 @@ export interface Look {
   readonly part: PartLook | undefined;
   readonly field: FieldLook | undefined;
   readonly mesh: MeshLook | undefined;
+  readonly front: boolean;
 }
 
 const fieldOfView = 26;
@@ -38,6 +41,7 @@ export class Viewer {
   private readonly partLayer = new PartLayer();
   private readonly fieldLayer = new FieldLayer();
   private readonly meshLayer = new MeshLayer();
+  private readonly frontLayer = new FrontLayer();
   private readonly highlight = new HighlightLayer();
   private readonly inspector = new Inspector();
   private target: Target | undefined;
@@ -47,7 +51,7 @@ export class Viewer {
   private positions = new Float32Array();
   private palette: Palette = lightPalette;
   private free: FreeArea = { left: 0, top: 0, width: 1, height: 1 };
-  private shown: { part?: InspectResult; field?: FieldResult; mesh?: MeshResult } = {};
+  private shown: { part?: InspectResult; field?: FieldResult; mesh?: MeshResult; playback?: Playback } = {};
   private scheduled = false;
 
   constructor(private readonly canvas: HTMLCanvasElement) {
@@ -55,7 +59,7 @@ export class Viewer {
     // Asking for the log of a shader waits until it is compiled and everything before it is drawn.
     this.renderer.debug.checkShaderErrors = false;
     this.renderer.setPixelRatio(Math.min(2, window.devicePixelRatio));
-    this.scene.add(this.partLayer, this.fieldLayer, this.meshLayer, this.highlight, this.camera, this.sky);
+    this.scene.add(this.partLayer, this.fieldLayer, this.meshLayer, this.frontLayer, this.highlight, this.camera, this.sky);
     this.addCameraLights();
     this.camera.up.set(0, 0, 1);
     this.controls = new OrbitControls(this.camera, canvas);
@@ -109,7 +113,21 @@ export class Viewer {
     this.invalidate();
   }
 
+  /** Shows where the history of the mesh is played, or nothing of it. */
+  setFront(playback: Playback | undefined): void {
+    if (playback !== this.shown.playback) {
+      this.frontLayer.hide();
+    }
+    delete this.shown.playback;
+    if (playback && this.frame) {
+      this.shown.playback = playback;
+      this.frontLayer.show(playback, this.frame, this.palette);
+    }
+    this.invalidate();
+  }
+
   setLook(look: Look): void {
+    this.frontLayer.visible = look.front;
     this.partLayer.visible = look.part !== undefined;
     this.fieldLayer.visible = look.field !== undefined;
     this.meshLayer.visible = look.mesh !== undefined;
@@ -229,11 +247,13 @@ export class Viewer {
     this.sky.color = this.palette.skyLight;
     this.sky.groundColor = this.palette.groundLight;
     this.sky.intensity = 1.9;
-    const { part, field, mesh } = this.shown;
+    const { part, field, mesh, playback } = this.shown;
     if (part) {
       this.setPart(part, false);
       this.setField(field);
       this.setMesh(mesh);
+      this.frontLayer.hide();
+      this.setFront(playback);
       this.mark(this.target);
     }
     this.invalidate();
