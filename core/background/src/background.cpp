@@ -38,8 +38,19 @@ void coarsen(Remesher& remesher, const RemeshMesh& mesh) {
   }
 }
 
+/// Small meshes fit in the cache whatever their order.
+void renumberIfLarge(Remesher& remesher, const RemeshMesh& mesh, FaceBoundary& boundary) {
+  constexpr std::int32_t kLarge = 10000;
+  std::int32_t vertices = 0;
+  for (std::int32_t v = 0; v < mesh.vertexCount(); ++v) vertices += mesh.isVertexRemoved(v) ? 0 : 1;
+  if (vertices < kLarge) return;
+  const std::vector<std::int32_t> newVertex = remesher.renumber();
+  for (std::int32_t& v : boundary.firstVertex) v = newVertex[index(v)];
+}
+
 /// Returns false when progress asked to stop.
-bool remesh(Remesher& remesher, const RemeshMesh& mesh, const BackgroundOptions& options, Progress& progress) {
+bool remesh(Remesher& remesher, const RemeshMesh& mesh, FaceBoundary& boundary, const BackgroundOptions& options,
+            Progress& progress) {
   remesher.updateSizes();
   remesher.removePoints();
   coarsen(remesher, mesh);
@@ -57,6 +68,8 @@ bool remesh(Remesher& remesher, const RemeshMesh& mesh, const BackgroundOptions&
   const int rounds = options.iterations + kExtraRounds;
   for (int round = 0; round < rounds; ++round) {
     if (!progress.report(Stage::background, static_cast<double>(round) / rounds)) return false;
+    // The first round makes most of the vertices.
+    if (round <= 1) renumberIfLarge(remesher, mesh, boundary);
     remesher.updateSizes();
     const std::int32_t left = remesher.removePoints();
     if (round >= options.iterations && left == 0) break;
@@ -161,14 +174,15 @@ Result<BackgroundResult> buildBackground(const TriangleMesh& mesh, const Brep& b
   for (const SizeLimit& limit : size.limits) {
     if (limit.face == face) targets.limits.push_back(limit);
   }
-  Remesher remesher(work, reference, targets);
-  if (!remesh(remesher, work, options, progress)) return cancelledError();
+  Remesher remesher(work, reference, std::move(targets));
+  if (!remesh(remesher, work, boundary, options, progress)) return cancelledError();
 
   BackgroundResult result;
   result.tooCoarse = settlePoints(remesher, work, boundary);
   if (!result.tooCoarse.empty()) return result;
   remesher.flipEdges();
   remesher.smooth(kSmoothingSweeps);
+  renumberIfLarge(remesher, work, boundary);
   remesher.updateSizes();
   Result<Patch> patch = makePatch(work, boundary, remesher.size(), face);
   if (!patch.ok()) return patch.error();

@@ -1,6 +1,7 @@
 #include "remesh_mesh.hpp"
 
 #include <cstddef>
+#include <utility>
 
 namespace qmcf {
 
@@ -19,6 +20,63 @@ void RemeshMesh::build(const std::vector<std::array<std::int32_t, 3>>& triangles
     std::int32_t& out = at(outgoing_, origin(h));
     if (out == kNone || twin(h) == kNone) out = h;
   }
+}
+
+std::vector<std::int32_t> RemeshMesh::renumber() {
+  std::vector<std::int32_t> newVertex(position.size(), kNone);
+  std::vector<std::int32_t> newTriangle(origin_.size() / 3, kNone);
+  std::vector<std::int32_t> vertices;   // In the new order.
+  std::vector<std::int32_t> triangles;  // Likewise.
+  const auto reach = [&](std::int32_t v) {
+    if (at(newVertex, v) != kNone) return;
+    at(newVertex, v) = static_cast<std::int32_t>(vertices.size());
+    vertices.push_back(v);
+  };
+  // From the whole boundary inwards, as the front that will consume the mesh goes.
+  for (std::int32_t v = 0; v < vertexCount(); ++v) {
+    if (isVertexRemoved(v) || !onBoundary(v)) continue;
+    for (std::int32_t w = v; at(newVertex, w) == kNone; w = target(outgoing(w))) reach(w);
+  }
+  std::size_t next = 0;
+  for (std::int32_t seed = 0; seed < vertexCount(); ++seed) {
+    if (isVertexRemoved(seed)) continue;
+    reach(seed);
+    for (; next < vertices.size(); ++next) {
+      forEachOutgoing(vertices[next], [&](std::int32_t h) {
+        if (at(newTriangle, h / 3) == kNone) {
+          at(newTriangle, h / 3) = static_cast<std::int32_t>(triangles.size());
+          triangles.push_back(h / 3);
+        }
+        reach(target(h));
+        reach(apex(h));
+      });
+    }
+  }
+  reorder(vertices, triangles, newVertex, newTriangle);
+  return newVertex;
+}
+
+void RemeshMesh::reorder(const std::vector<std::int32_t>& vertices, const std::vector<std::int32_t>& triangles,
+                         const std::vector<std::int32_t>& newVertex, const std::vector<std::int32_t>& newTriangle) {
+  const auto newHalfedge = [&](std::int32_t h) { return h == kNone ? kNone : 3 * at(newTriangle, h / 3) + h % 3; };
+  RemeshMesh now;
+  for (const std::int32_t v : vertices) {
+    now.position.push_back(at(position, v));
+    now.normal.push_back(at(normal, v));
+    now.role.push_back(at(role, v));
+    now.node.push_back(at(node, v));
+    now.triangle.push_back(at(triangle, v));
+    now.outgoing_.push_back(newHalfedge(at(outgoing_, v)));
+  }
+  for (const std::int32_t t : triangles) {
+    for (std::int32_t h = 3 * t; h < 3 * t + 3; ++h) {
+      now.origin_.push_back(at(newVertex, origin(h)));
+      now.twin_.push_back(newHalfedge(twin(h)));
+      now.mark_.push_back(mark(h));
+    }
+  }
+  now.stamp_.assign(vertices.size(), 0);
+  *this = std::move(now);
 }
 
 std::int32_t RemeshMesh::incomingBoundary(std::int32_t v) const {

@@ -30,6 +30,10 @@ class RemeshMesh {
   /// \pre the triangles make an oriented manifold; position is filled.
   void build(const std::vector<std::array<std::int32_t, 3>>& triangles, const std::vector<std::int32_t>& twins);
 
+  /// Gives all elements new ids without gaps, neighbours near each other, so that a walk over the mesh stays in the
+  /// cache: breadth first from the boundary, loop by loop. Returns the new id of each vertex; kNone of removed ones.
+  std::vector<std::int32_t> renumber();
+
   [[nodiscard]] std::int32_t halfedgeCount() const { return static_cast<std::int32_t>(origin_.size()); }
   [[nodiscard]] std::int32_t vertexCount() const { return static_cast<std::int32_t>(outgoing_.size()); }
   [[nodiscard]] bool isRemoved(std::int32_t h) const { return at(origin_, h) == kNone; }
@@ -104,6 +108,8 @@ class RemeshMesh {
     return v[static_cast<std::size_t>(i)];
   }
 
+  void reorder(const std::vector<std::int32_t>& vertices, const std::vector<std::int32_t>& triangles,
+               const std::vector<std::int32_t>& newVertex, const std::vector<std::int32_t>& newTriangle);
   std::int32_t addTriangle();
   void pair(std::int32_t a, std::int32_t b);
   void hand(std::int32_t from, std::int32_t to);

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <type_traits>
 #include <utility>
 
 #include "qmcf/sizing/min_heap.hpp"
@@ -69,6 +70,22 @@ void grade(const RemeshMesh& mesh, std::vector<double>& value, double highest, d
 }
 
 }  // namespace
+
+std::vector<std::int32_t> Remesher::renumber() {
+  const std::vector<std::int32_t> newVertex = mesh_.renumber();
+  const auto apply = [&](auto& values) {
+    std::decay_t<decltype(values)> now(index(mesh_.vertexCount()));
+    for (std::size_t v = 0; v < values.size(); ++v) {
+      if (newVertex[v] != kNone) now[index(newVertex[v])] = values[v];
+    }
+    values = std::move(now);
+  };
+  apply(targets_.nodeSize);
+  apply(targets_.spacing);
+  apply(awake_);
+  apply(moved_);
+  return newVertex;
+}
 
 /// Lowers the sizes at vertices near a limit; gradation carries them on.
 void Remesher::applyLimits() {
@@ -156,6 +173,7 @@ bool Remesher::tryCollapse(std::int32_t h, std::int32_t removed) {
   const double longest = isPoint ? HUGE_VAL : kLongest * edgeLength(removed, kept);
   if (!mesh_.canCollapse(h, removed) || !keepsShape(removed, kept, longest)) return false;
   mesh_.collapse(h, removed);
+  wakeAround(kept);
   return true;
 }
 
@@ -221,6 +239,9 @@ void Remesher::splitEdge(std::int32_t h) {
   mesh_.normal[index(m)] = normal;
   size_.push_back(0.5 * (size_[index(a)] + size_[index(b)]));
   length_.push_back(0.5 * (length_[index(a)] + length_[index(b)]));
+  awake_.push_back(1);
+  moved_.push_back(1);
+  wakeAround(m);
   const FaceReference::Foot foot =
       reference_.project(middle, normal, std::max(mesh_.triangle[index(a)], mesh_.triangle[index(b)]));
   mesh_.normal[index(m)] = foot.normal;
@@ -271,6 +292,8 @@ bool Remesher::wantsFlip(std::int32_t h) const {
   constexpr double kFlat = 0.9995;
   constexpr double kGain = 1e-6;
   constexpr double kGoodEnough = 0.12;
+  // Either diagonal of a square makes triangles of 0.75; of no other quadrilateral do both as well.
+  constexpr double kBest = 0.76;
   const std::int32_t a = mesh_.origin(h);
   const std::int32_t b = mesh_.target(h);
   const std::int32_t c = mesh_.apex(h);
@@ -281,11 +304,12 @@ bool Remesher::wantsFlip(std::int32_t h) const {
   const Vec3& pd = mesh_.positionOf(d);
   const Shape left = shapeOf(pa, pb, pc);
   const Shape right = shapeOf(pb, pa, pd);
+  const double before = std::min(left.quality, right.quality);
+  const bool leavesBoundary = joinsBoundary(a, b) && !joinsBoundary(c, d);
+  if (before > kBest && !leavesBoundary) return false;
   const Shape newA = shapeOf(pd, pc, pa);
   const Shape newB = shapeOf(pc, pd, pb);
-  const double before = std::min(left.quality, right.quality);
   const double after = std::min(newA.quality, newB.quality);
-  const bool leavesBoundary = joinsBoundary(a, b) && !joinsBoundary(c, d);
   if (after < kDegenerate) return false;
   if (!(after > before + kGain) && !(leavesBoundary && after > kGoodEnough)) return false;
   const double across = distance(pc, pd);
@@ -301,11 +325,22 @@ bool Remesher::wantsFlip(std::int32_t h) const {
 
 void Remesher::flipEdges() {
   constexpr int kSweeps = 4;
-  for (int sweep = 0; sweep < kSweeps; ++sweep) {
+  // An edge that did not want to flip does not either as long as its triangles are the same.
+  std::vector<std::int8_t> lastFlip(index(mesh_.vertexCount()), -1);  // Per vertex: sweep of the last flip around it.
+  for (std::int8_t sweep = 0; sweep < kSweeps; ++sweep) {
     std::int32_t flipped = 0;
     for (std::int32_t h = 0; h < mesh_.halfedgeCount(); ++h) {
-      if (mesh_.isRemoved(h) || mesh_.twin(h) < h || !wantsFlip(h) || !mesh_.canFlip(h)) continue;
+      if (mesh_.isRemoved(h) || mesh_.twin(h) < h) continue;
+      const std::array<std::int32_t, 4> corners{mesh_.origin(h), mesh_.target(h), mesh_.apex(h),
+                                                mesh_.apex(mesh_.twin(h))};
+      const bool changed =
+          std::any_of(corners.begin(), corners.end(), [&](std::int32_t v) { return lastFlip[index(v)] + 1 >= sweep; });
+      if (!changed || !wantsFlip(h) || !mesh_.canFlip(h)) continue;
       mesh_.flip(h);
+      for (const std::int32_t v : corners) {
+        lastFlip[index(v)] = sweep;
+        wake(v);
+      }
       ++flipped;
     }
     if (flipped == 0) return;
@@ -332,25 +367,39 @@ bool Remesher::tryMove(std::int32_t v, const Vec3& to, const Vec3& normal) {
   return true;
 }
 
+void Remesher::wakeAround(std::int32_t v) {
+  wake(v);
+  mesh_.forEachNeighbor(v, [this](std::int32_t w) { wake(w); });
+}
+
+void Remesher::smoothVertex(std::int32_t v) {
+  // Of the target length: shorter moves don't make better triangles.
+  constexpr double kStill = 0.01;
+  const Vec3 p = mesh_.positionOf(v);
+  Vec3 sum;
+  double weights = 0.0;
+  mesh_.forEachNeighbor(v, [&](std::int32_t w) {
+    const double weight = distance(p, mesh_.positionOf(w)) / edgeLength(v, w);
+    sum += mesh_.positionOf(w) * weight;
+    weights += weight;
+  });
+  if (!(weights > 0.0)) return;
+  const Vec3& normal = mesh_.normal[index(v)];
+  const Vec3 step = tangentPart(sum / weights - p, normal);
+  if (!tryMove(v, p + step, normal) && !tryMove(v, p + step * 0.3, normal)) return;
+  moved_[index(v)] = 1;
+  if (norm(step) > kStill * length_[index(v)]) wakeAround(v);
+}
+
 void Remesher::smooth(int sweeps) {
   for (int sweep = 0; sweep < sweeps; ++sweep) {
     for (std::int32_t v = 0; v < mesh_.vertexCount(); ++v) {
-      if (mesh_.isVertexRemoved(v) || mesh_.role[index(v)] != VertexRole::interior) continue;
-      const Vec3 p = mesh_.positionOf(v);
-      Vec3 sum;
-      double weights = 0.0;
-      mesh_.forEachNeighbor(v, [&](std::int32_t w) {
-        const double weight = distance(p, mesh_.positionOf(w)) / edgeLength(v, w);
-        sum += mesh_.positionOf(w) * weight;
-        weights += weight;
-      });
-      if (!(weights > 0.0)) continue;
-      const Vec3& normal = mesh_.normal[index(v)];
-      const Vec3 step = tangentPart(sum / weights - p, normal);
-      if (!tryMove(v, p + step, normal)) (void)tryMove(v, p + step * 0.3, normal);
+      if (std::exchange(awake_[index(v)], 0) == 0) continue;
+      if (!mesh_.isVertexRemoved(v) && mesh_.role[index(v)] == VertexRole::interior) smoothVertex(v);
     }
   }
   for (std::int32_t v = 0; v < mesh_.vertexCount(); ++v) {
+    if (std::exchange(moved_[index(v)], 0) == 0) continue;
     if (mesh_.isVertexRemoved(v) || mesh_.role[index(v)] != VertexRole::interior) continue;
     const FaceReference::Foot foot =
         reference_.project(mesh_.positionOf(v), mesh_.normal[index(v)], mesh_.triangle[index(v)]);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "face_reference.hpp"
@@ -24,8 +25,15 @@ struct RemeshTargets {
 /// that coarse CAD facets need. Every operation keeps the topology and turns no triangle over.
 class Remesher {
  public:
-  Remesher(RemeshMesh& mesh, const FaceReference& reference, const RemeshTargets& targets)
-      : mesh_(mesh), reference_(reference), targets_(targets) {}
+  Remesher(RemeshMesh& mesh, const FaceReference& reference, RemeshTargets targets)
+      : mesh_(mesh),
+        reference_(reference),
+        targets_(std::move(targets)),
+        awake_(static_cast<std::size_t>(mesh.vertexCount()), 1),
+        moved_(awake_) {}
+
+  /// RemeshMesh::renumber() of the mesh and of what is known about its vertices; sizes are to be updated afterwards.
+  std::vector<std::int32_t> renumber();
 
   /// Computes `size` and `length` for all vertices, by gradation from the nodes along the mesh's edges.
   void updateSizes();
@@ -40,7 +48,8 @@ class Remesher {
   std::int32_t splitLong(double scale);
   /// Flips edges where that makes better triangles.
   void flipEdges();
-  /// Moves vertices inside towards the middle of their neighbours, then onto the face.
+  /// Moves vertices inside towards the middle of their neighbours, then onto the face. Leaves out those around which
+  /// nothing has changed since they came to rest.
   void smooth(int sweeps);
 
   [[nodiscard]] const std::vector<double>& size() const { return size_; }
@@ -52,6 +61,9 @@ class Remesher {
   [[nodiscard]] bool tryCollapse(std::int32_t h, std::int32_t removed);
   [[nodiscard]] bool keepsShape(std::int32_t removed, std::int32_t kept, double longest);
   [[nodiscard]] bool wantsFlip(std::int32_t h) const;
+  void wake(std::int32_t v) { awake_[static_cast<std::size_t>(v)] = 1; }
+  void wakeAround(std::int32_t v);
+  void smoothVertex(std::int32_t v);
   [[nodiscard]] bool tryMove(std::int32_t v, const Vec3& to, const Vec3& normal);
   void splitEdge(std::int32_t h);
   [[nodiscard]] bool isTooLong(std::int32_t h, double scale) const;
@@ -60,9 +72,11 @@ class Remesher {
 
   RemeshMesh& mesh_;
   const FaceReference& reference_;
-  const RemeshTargets& targets_;
+  RemeshTargets targets_;
   std::vector<double> size_;    ///< Per vertex: target size of the quad mesh.
   std::vector<double> length_;  ///< Per vertex: target length of triangle edges.
+  std::vector<char> awake_;     ///< Per vertex: something near it has changed since it was smoothed.
+  std::vector<char> moved_;     ///< Per vertex: it has moved since it was projected.
 };
 
 }  // namespace qmcf

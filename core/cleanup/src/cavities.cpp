@@ -227,6 +227,7 @@ bool TopologicalCleanup::fillWith(const SidePattern& pattern, const std::vector<
   const bool covers =
       after.area >= kAreaKept * before.area && after.distance <= std::max(kNear * size, 1.5 * before.distance);
   if (isSlim && covers && worstOf(mesh_, filled) >= worstBefore && meanShape(mesh_, filled) >= meanBefore - worth) {
+    touched_.insert(touched_.end(), moving.begin(), moving.end());
     mesh_.commit();
     ++statistics_.cavities;
     return true;

@@ -12,9 +12,6 @@
 namespace qmcf {
 namespace {
 
-/// Moves smaller than this, in element sizes, end the relaxation.
-constexpr double kStill = 1e-3;
-
 /// Quads with a worse shape are better off as two triangles.
 constexpr double kHopeless = 0.05;
 
@@ -57,22 +54,17 @@ Result<CleanupResult> cleanUp(const FaceMesh& mesh, const Patch& patch, const Tr
   };
   const RelaxationTarget where{patch, target, options.sizeScale};
   TopologicalCleanup topology(work, patch, where, options, trace);
-  const auto allVertices = [&] {
-    std::vector<VertexId> vertices;
-    for (std::size_t i = 0; i < work.vertexCapacity(); ++i) {
-      if (work.alive(VertexId(i))) vertices.emplace_back(i);
-    }
-    return vertices;
-  };
   constexpr double kEnough = 0.6;
+  constexpr int kSweepsPerRound = 3;
   constexpr std::int32_t kSmallRounds = 2;
   constexpr int kCavityPasses = 2;
   int cavityPasses = 0;
+  LazyRelaxation relaxation(work, where, kEnough);
   for (std::int32_t round = 0; options.topology && round < options.rounds; ++round) {
     if (!progress.report(Stage::cleanup, 0.7 * round / options.rounds)) return cancelledError();
-    const auto vertices = allVertices();
     note(TraceKind::smooth);
-    for (int sweep = 0; sweep < 3; ++sweep) relax(work, vertices, where, kEnough);
+    for (int sweep = 0; sweep < kSweepsPerRound && relaxation.sweep(); ++sweep) {
+    }
     work.commit();
     std::int64_t changes = topology.pass();
     const bool settled = changes == 0 || round == kSmallRounds;
@@ -80,15 +72,15 @@ Result<CleanupResult> cleanUp(const FaceMesh& mesh, const Patch& patch, const Tr
       ++cavityPasses;
       changes += topology.cavityPass();
     }
+    relaxation.wake(topology.takeTouched());
     if (changes == 0) break;
   }
-  const auto vertices = allVertices();
   note(TraceKind::smooth);
   for (std::int32_t sweep = 0; sweep < options.sweeps; ++sweep) {
     if (!progress.report(Stage::cleanup, 0.7 + 0.3 * sweep / options.sweeps)) return cancelledError();
-    const double largest = relax(work, vertices, where, kEnough);
+    const bool isStill = !relaxation.sweep();
     work.commit();
-    if (largest < kStill) break;
+    if (isStill) break;
   }
   note(TraceKind::untangle);
   const std::int64_t turnedOver = untangle(work, where);

@@ -52,6 +52,7 @@ bool TopologicalCleanup::settle(const std::vector<VertexId>& vertices, double le
   const std::vector<VertexId> moving = withNeighbours(mesh_, vertices);
   for (int sweep = 0; sweep < kSettleSweeps; ++sweep) relax(mesh_, moving, target_, options_.leastShape);
   if (worstAround(mesh_, vertices) >= least) {
+    touched_.insert(touched_.end(), moving.begin(), moving.end());
     mesh_.commit();
     return true;
   }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "cavity.hpp"
@@ -24,6 +25,8 @@ class TopologicalCleanup {
   /// One pass of cavity remeshing, for a mesh on which the small operators have done what they can. Returns the number
   /// of changes.
   std::int64_t cavityPass();
+  /// The vertices around all changes since this was called last; some may have been removed since.
+  std::vector<VertexId> takeTouched() { return std::exchange(touched_, {}); }
   [[nodiscard]] const CleanupStatistics& statistics() const { return statistics_; }
 
  private:
@@ -52,8 +55,9 @@ class TopologicalCleanup {
   const RelaxationTarget& target_;
   const CleanupOptions& options_;
   CleanupStatistics statistics_;
-  TraceRecorder* trace_;  ///< nullptr: nobody wants the history.
-  Cavity cavity_;         ///< The region being looked at.
+  TraceRecorder* trace_;           ///< nullptr: nobody wants the history.
+  Cavity cavity_;                  ///< The region being looked at.
+  std::vector<VertexId> touched_;  ///< See takeTouched().
 };
 
 }  // namespace qmcf

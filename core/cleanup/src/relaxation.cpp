@@ -12,36 +12,39 @@ namespace {
 
 /// Weight of the size field against the element's own size.
 constexpr double kSizeWeight = 0.3;
+/// Shorter moves, in element sizes, wake nobody.
+constexpr double kStill = 5e-3;
+/// Going further than wanted gets everything there in fewer sweeps, as in successive over-relaxation.
+constexpr double kOverRelaxation = 1.4;
 
 }  // namespace
 
 Vec3 idealCorner(const EditMesh& mesh, HalfedgeId h, const Vec3& normal, double size) {
-  const bool quad = mesh.cornerCount(mesh.face(h)) == 4;
-  const int count = quad ? 4 : 3;
-  std::array<Vec3, 4> p;
+  const auto corner = [&mesh](HalfedgeId e) -> const Vec3& { return mesh.position(mesh.origin(e)); };
+  const HalfedgeId second = mesh.next(h);
+  const HalfedgeId third = mesh.next(second);
+  const HalfedgeId fourth = mesh.next(third);
+  const Vec3& p0 = corner(h);
+  const Vec3& p1 = corner(second);
+  const Vec3& p2 = corner(third);
+  // Corner i of the polygon, turned back by i steps about the centre, is an estimate of corner 0; their mean is the
+  // least-squares fit. Of the turns little is left: the centre cancels, and so do the halves of opposite corners.
   Vec3 centre;
-  HalfedgeId e = h;
-  for (int i = 0; i < count; ++i, e = mesh.next(e)) {
-    p[static_cast<std::size_t>(i)] = mesh.position(mesh.origin(e));
-    centre += p[static_cast<std::size_t>(i)] / count;
+  Vec3 arm;
+  double wanted = size;
+  if (fourth == h) {
+    constexpr double kSine = 0.8660254037844386;
+    centre = (p0 + p1 + p2) / 3.0;
+    arm = (tangentPart(p0 - (p1 + p2) * 0.5, normal) + cross(p1 - p2, normal) * kSine) / 3.0;
+    wanted *= 0.6;
+  } else {
+    const Vec3& p3 = corner(fourth);
+    centre = (p0 + p1 + p2 + p3) * 0.25;
+    arm = (tangentPart(p0 - p2, normal) + cross(p1 - p3, normal)) * 0.25;
+    wanted *= 0.7071067811865476;
   }
-  // Corner i of the polygon, turned back by i steps, is an estimate of corner 0; their mean is the least-squares fit.
-  const double c = quad ? 0.0 : -0.5;
-  const double s = quad ? 1.0 : 0.8660254037844386;
-  Vec3 sum;
-  double cosine = 1.0;
-  double sine = 0.0;
-  for (int i = 0; i < count; ++i) {
-    const Vec3 arm = tangentPart(p[static_cast<std::size_t>(i)] - centre, normal);
-    sum += arm * cosine + cross(arm, normal) * sine;  // turned by -i steps about the normal
-    const double next = cosine * c - sine * s;
-    sine = sine * c + cosine * s;
-    cosine = next;
-  }
-  const Vec3 arm = sum / count;
   const double length = norm(arm);
   if (!(length > 0.0)) return centre;
-  const double wanted = size * (quad ? 0.7071067811865476 : 0.6);
   return centre + arm * ((1.0 - kSizeWeight) + kSizeWeight * wanted / length);
 }
 
@@ -63,31 +66,61 @@ EditMesh::Vertex projectVertex(const RelaxationTarget& target, const EditMesh::V
   return vertex;
 }
 
-double relax(EditMesh& mesh, const std::vector<VertexId>& vertices, const RelaxationTarget& target, double enough) {
-  double largest = 0.0;
+namespace {
+
+/// Moves a vertex to where its elements want it unless that makes one of them worse, see relax(). Returns how far, in
+/// element sizes.
+double relaxVertex(EditMesh& mesh, VertexId v, const RelaxationTarget& target, double enough) {
+  const EditMesh::Vertex& vertex = mesh.vertex(v);
+  const double size = target.sizeScale * interpolate(target.patch.surface, target.patch.size, vertex.location);
+  Vec3 sum;
+  int count = 0;
+  mesh.forEachOutgoing(v, [&](HalfedgeId h) {
+    sum += idealCorner(mesh, h, vertex.normal, size);
+    ++count;
+  });
+  const Vec3 step = (sum / count - vertex.position) * kOverRelaxation;
+  const EditMesh::Vertex moved = projectVertex(target, vertex, vertex.position + step);
+  const double move = distance(moved.position, vertex.position) / size;
+  const std::size_t mark = mesh.mark();
+  mesh.setVertex(v, moved);
+  if (isWellShapedAround(mesh, v, enough)) return move;
+  const double after = worstShapeAround(mesh, v);
+  mesh.rollback(mark);
+  if (!(after >= worstShapeAround(mesh, v))) return 0.0;
+  mesh.setVertex(v, moved);
+  return move;
+}
+
+}  // namespace
+
+void relax(EditMesh& mesh, const std::vector<VertexId>& vertices, const RelaxationTarget& target, double enough) {
   for (const VertexId v : vertices) {
-    if (!mesh.alive(v) || mesh.isBoundary(v)) continue;
-    const EditMesh::Vertex& vertex = mesh.vertex(v);
-    const double size = target.sizeScale * interpolate(target.patch.surface, target.patch.size, vertex.location);
-    Vec3 sum;
-    int count = 0;
-    mesh.forEachOutgoing(v, [&](HalfedgeId h) {
-      sum += idealCorner(mesh, h, vertex.normal, size);
-      ++count;
-    });
-    const EditMesh::Vertex moved = projectVertex(target, vertex, sum / count);
-    const double move = distance(moved.position, vertex.position) / size;
-    const std::size_t mark = mesh.mark();
-    mesh.setVertex(v, moved);
-    const double after = worstShapeAround(mesh, v);
-    if (!(after >= enough)) {
-      mesh.rollback(mark);
-      if (!(after >= worstShapeAround(mesh, v))) continue;
-      mesh.setVertex(v, moved);
-    }
-    largest = std::max(largest, move);
+    if (mesh.alive(v) && !mesh.isBoundary(v)) (void)relaxVertex(mesh, v, target, enough);
   }
-  return largest;
+}
+
+LazyRelaxation::LazyRelaxation(EditMesh& mesh, const RelaxationTarget& target, double enough)
+    : mesh_(mesh), target_(target), enough_(enough), awake_(mesh.vertexCapacity(), 1) {}
+
+void LazyRelaxation::wake(const std::vector<VertexId>& vertices) {
+  awake_.resize(mesh_.vertexCapacity(), 1);
+  for (const VertexId v : vertices) awake_[v] = 1;
+}
+
+bool LazyRelaxation::sweep() {
+  bool isStill = true;
+  for (const VertexId v : IdRange<VertexId>(awake_.size())) {
+    if (awake_[v] == 0) continue;
+    awake_[v] = 0;
+    if (!mesh_.alive(v) || mesh_.isBoundary(v) || relaxVertex(mesh_, v, target_, enough_) <= kStill) continue;
+    isStill = false;
+    mesh_.forEachOutgoing(v, [&](HalfedgeId h) {
+      for (HalfedgeId e = mesh_.next(h); e != h; e = mesh_.next(e)) awake_[mesh_.origin(e)] = 1;
+    });
+    awake_[v] = 1;
+  }
+  return !isStill;
 }
 
 }  // namespace qmcf

@@ -23,10 +23,27 @@ EditMesh::Vertex projectVertex(const RelaxationTarget& target, const EditMesh::V
 /// plane of normal; size: the edge length wanted there.
 Vec3 idealCorner(const EditMesh& mesh, HalfedgeId h, const Vec3& normal, double size);
 
-/// One Gauss-Seidel sweep over the given vertices: each moves to the mean of the places that the best-fitting squares
-/// (equilateral triangles) of its elements give it, is projected, and stays where it was if an element around it would
-/// become worse than both before and `enough`. Boundary vertices don't move. Returns the largest move relative to the
-/// element size.
-double relax(EditMesh& mesh, const std::vector<VertexId>& vertices, const RelaxationTarget& target, double enough);
+/// One sweep of successive over-relaxation over the given vertices: each moves towards the mean of the places that the
+/// best-fitting squares (equilateral triangles) of its elements give it and somewhat further, is projected, and stays
+/// where it was if an element around it would become worse than both before and `enough`. Boundary vertices don't move.
+void relax(EditMesh& mesh, const std::vector<VertexId>& vertices, const RelaxationTarget& target, double enough);
+
+/// Sweeps over all vertices of a mesh that leave out those around which nothing has moved since they were visited last.
+class LazyRelaxation {
+ public:
+  LazyRelaxation(EditMesh& mesh, const RelaxationTarget& target, double enough);
+
+  /// To be called after a change of the mesh with the vertices that it touched; new ones are awake.
+  void wake(const std::vector<VertexId>& vertices);
+  /// As relax(), for the vertices that are awake. Returns false once nothing moves by more than a two-hundredth of the
+  /// element size.
+  bool sweep();
+
+ private:
+  EditMesh& mesh_;
+  const RelaxationTarget& target_;
+  double enough_;
+  IdMap<VertexId, char> awake_;
+};
 
 }  // namespace qmcf

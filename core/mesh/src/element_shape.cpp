@@ -11,13 +11,34 @@ constexpr double kLeaning = 0.4;
 constexpr double kFolded = 0.2;
 /// Height over length below which a triangle has no area to speak of.
 constexpr double kFlat = 1e-9;
+/// What is better than asked for by this factor, in squares, is so whatever the round-off.
+constexpr double kMargin = 1.01;
 
 /// Whether a vector leans less than kLeaning from a unit normal, by a margin; without a square root, since nearly all
 /// do.
 bool isClearlyUpright(const Vec3& v, const Vec3& normal) {
-  constexpr double kMargin = 1.01;
   const double along = dot(v, normal);
   return along > 0.0 && along * along > kMargin * kLeaning * kLeaning * squaredNorm(v);
+}
+
+/// Whether a quad's shape is at least `least` by a margin. No square roots, no divisions.
+bool isClearlyWellShaped(const EditMesh& mesh, const std::array<HalfedgeId, 4>& sides, double least) {
+  std::array<VertexId, 4> corners;
+  for (std::size_t i = 0; i < 4; ++i) corners[i] = mesh.origin(sides[i]);
+  const auto p = [&](std::size_t i) -> const Vec3& { return mesh.position(corners[i]); };
+  const std::array<Vec3, 4> side{p(1) - p(0), p(2) - p(1), p(3) - p(2), p(0) - p(3)};
+  const std::array<double, 4> square{squaredNorm(side[0]), squaredNorm(side[1]), squaredNorm(side[2]),
+                                     squaredNorm(side[3])};
+  const Vec3 normal = cross(p(2) - p(0), p(3) - p(1));
+  const double enough = kMargin * least * least * squaredNorm(normal);
+  for (std::size_t i = 0; i < 4; ++i) {
+    const std::size_t before = (i + 3) % 4;
+    const Vec3 corner = cross(side[before], side[i]);
+    const double along = dot(corner, normal);
+    if (!(along > 0.0) || !(along * along > enough * square[i] * square[before])) return false;
+    if (!isClearlyUpright(corner, mesh.normal(corners[i]))) return false;
+  }
+  return true;
 }
 
 }  // namespace
@@ -89,6 +110,19 @@ double worstShapeAround(const EditMesh& mesh, VertexId v) {
   double worst = 1.0;
   mesh.forEachOutgoing(v, [&](HalfedgeId h) { worst = std::min(worst, faceShape(mesh, mesh.face(h))); });
   return worst;
+}
+
+bool isWellShapedAround(const EditMesh& mesh, VertexId v, double least) {
+  const HalfedgeId first = mesh.outgoing(v);
+  HalfedgeId h = first;
+  do {
+    const FaceId f = mesh.face(h);
+    const auto sides = mesh.sides(f);
+    const bool isClear = sides[3].valid() && isClearlyWellShaped(mesh, sides, least);
+    if (!isClear && !(faceShape(mesh, f) >= least)) return false;
+    h = mesh.nextAround(h);
+  } while (h.valid() && h != first);
+  return true;
 }
 
 }  // namespace qmcf

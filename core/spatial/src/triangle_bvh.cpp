@@ -174,6 +174,8 @@ TriangleBvh::TriangleBvh(const std::vector<Vec3>& positions,
       for (const Vec3& corner : triangles_[static_cast<std::size_t>(i)]) include(corner, corner);
     }
   }
+  constexpr double kRoundOff = 1e-14;  // Of the coordinates.
+  onSurface_ = kRoundOff * kRoundOff * std::max(squaredNorm(nodes_[0].low), squaredNorm(nodes_[0].high));
 }
 
 template <class Accept>
@@ -189,6 +191,7 @@ ClosestPoint TriangleBvh::search(const Vec3& query, std::int32_t hint, Accept ac
     if (accept(index)) {
       best = closestOn(query, triangles_[index]);
       best.triangle = hint;
+      if (best.squaredDistance <= onSurface_) return best;
     }
   }
   std::array<Entry, 128> stack;  // Two entries a level, and halving 2^31 triangles takes fewer than 32 levels.

@@ -25,5 +25,7 @@ bool isDegenerate(const EditMesh& mesh, FaceId f);
 
 /// The worst faceShape() around a vertex.
 double worstShapeAround(const EditMesh& mesh, VertexId v);
+/// Whether worstShapeAround() is at least `least`, in (0, 1]; much faster where it is by far.
+bool isWellShapedAround(const EditMesh& mesh, VertexId v, double least);
 
 }  // namespace qmcf

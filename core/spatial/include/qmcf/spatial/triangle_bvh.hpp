@@ -36,7 +36,8 @@ class TriangleBvh {
   /// The closest point; ties go to the smallest triangle id. \pre !empty()
   [[nodiscard]] ClosestPoint closest(const Vec3& query) const;
   /// As above among triangles whose unit normal n has dot(n, normal) >= minCosine; without any such triangle, as above.
-  /// hint: a triangle near the answer, or -1; it changes how long the search takes and nothing else.
+  /// hint: a triangle near the answer, or -1; it changes how long the search takes and nothing else, except that it is
+  /// the answer itself if the query lies on it, up to the round-off of the coordinates.
   [[nodiscard]] ClosestPoint closest(const Vec3& query, const Vec3& normal, double minCosine,
                                      std::int32_t hint = -1) const;
 
@@ -53,6 +54,7 @@ class TriangleBvh {
   ClosestPoint search(const Vec3& query, std::int32_t hint, Accept accept) const;
 
   std::vector<Node> nodes_;
+  double onSurface_ = 0.0;                      ///< Squared distance that is no more than round-off.
   std::vector<std::int32_t> order_;             ///< Triangle ids, leaf by leaf.
   std::vector<std::int32_t> place_;             ///< Per triangle: its entry in order_.
   std::vector<std::array<Vec3, 3>> triangles_;  ///< Corners in the order of order_.
