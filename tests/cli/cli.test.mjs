@@ -346,3 +346,35 @@ test('the history of the front is written, and ends with the elements of the mes
   assert.equal(refused.status, 2);
   assert.ok(!existsSync(join(folder, 'no.obj')));
 });
+
+test('mesh --sizing-out writes a size per vertex of the file, and per different point of an STL', () => {
+  put('sized.obj', cube(2));
+  const run = qmcf('mesh', 'sized.obj', '-o', 'sized.quads.obj', '--size', '0.25', '--sizing-out', 'sizes.txt', '--report', 'sized.json', '--quiet');
+  assert.equal(run.status, 0, run.stderr);
+  const sizes = get('sizes.txt').trimEnd().split('\n').map(Number);
+  assert.equal(sizes.length, 26);
+  assert.ok(sizes.every((h) => Math.abs(h - 0.25) < 1e-12), String(sizes));
+  const { meanAbsLog2, median } = JSON.parse(get('sized.json')).sizeConformity;
+  assert.ok(meanAbsLog2 < 0.05 && Math.abs(median - 1) < 0.05, `${meanAbsLog2} ${median}`);
+
+  const corners = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]];
+  const facet = (...ids) => `facet normal 0 0 1\nouter loop\n${ids.map((i) => `vertex ${corners[i].join(' ')}\n`).join('')}endloop\nendfacet\n`;
+  put('sized.stl', `solid s\n${facet(0, 1, 2)}${facet(0, 2, 3)}endsolid s\n`);
+  assert.equal(qmcf('mesh', 'sized.stl', '-o', 'sized.quads.obj', '--sizing-out', 'sizes.txt', '--quiet').status, 0);
+  assert.equal(get('sizes.txt').trimEnd().split('\n').length, 4);
+
+  assert.equal(qmcf('mesh', 'sized.obj', '-o', 'sized.quads.obj', '--sizing-out', 'missing/sizes.txt').status, 2);
+});
+
+test('mesh --quads makes the number of elements asked for within 2 %', () => {
+  put('counted.obj', cube(3));
+  // Rows of a disc close in on its centre, so that the front alone would make 8 % too many.
+  const rim = Array.from({ length: 200 }, (_, i) => [Math.cos((i * Math.PI) / 100), Math.sin((i * Math.PI) / 100)]);
+  put('disc.obj', `v 0 0 0\n${rim.map((p) => `v ${p.join(' ')} 0\n`).join('')}${rim.map((_, i) => `f 1 ${i + 2} ${((i + 1) % 200) + 2}\n`).join('')}`);
+  for (const [model, quads] of [['counted.obj', 1350], ['disc.obj', 1000], ['disc.obj', 2000]]) {
+    assert.equal(qmcf('mesh', model, '-o', 'counted.quads.obj', '--quads', String(quads), '--report', 'counted.json', '--quiet').status, 0);
+    const { quality } = JSON.parse(get('counted.json'));
+    const made = quality.quads + quality.triangles;
+    assert.ok(Math.abs(made / quads - 1) <= 0.02, `${model}: ${made} of ${quads}`);
+  }
+});

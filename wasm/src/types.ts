@@ -352,6 +352,18 @@ export interface FaceReport {
   readonly triangles: number;
 }
 
+/** Edge lengths against the size field that the run worked with. */
+export interface SizeConformity {
+  /** Mean |log2(length / target)|; 0 is perfect. */
+  readonly meanAbsLog2: number;
+  /** 5 % of the edges are shorter, in units of the target. */
+  readonly p5: number;
+  readonly median: number;
+  readonly p95: number;
+  /** Share of the edges between 1/sqrt2 and sqrt2 of the target. */
+  readonly withinSqrt2: number;
+}
+
 /** Everything a person should know about a mesh. */
 export interface MeshReport {
   readonly size: number;
@@ -365,6 +377,8 @@ export interface MeshReport {
   readonly relaxedTogether: boolean;
   /** Nodes that this moved along their edges by more than a tenth of the element size. */
   readonly slidNodes: number;
+  /** The lengths of the mesh's edges in units of the target at their midpoints. */
+  readonly sizeConformity: SizeConformity;
 }
 
 /** The arrays of a quad-dominant mesh. */

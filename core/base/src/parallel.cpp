@@ -73,6 +73,7 @@ class Pieces {
     runThread(true);
     try {
       reportUntilDone();
+      reportEnd();
     } catch (...) {
       stopWith(std::current_exception());
     }
@@ -81,6 +82,7 @@ class Pieces {
 #else
     static_cast<void>(threads);
     runThread(true);
+    reportEnd();
 #endif
     return stopped_ ? cancelledError() : error_;
   }
@@ -106,6 +108,19 @@ class Pieces {
     std::size_t index_;
     bool isCaller_;
   };
+
+  /// However the work was shared, the caller hears of the end, and can still stop.
+  void reportEnd() {
+    std::optional<Stage> stage;
+    double reached = 0.0;
+    {
+      const Lock lock(mutex_);
+      if (stopped_ || firstFailed_ != kNoIndex || !latest_) return;
+      stage = latest_;
+      reached = std::min(1.0, sum_[static_cast<std::size_t>(*stage)]);
+    }
+    static_cast<void>(tell(*stage, reached));
+  }
 
   std::size_t take() {
     const Lock lock(mutex_);

@@ -97,7 +97,8 @@ class JointRelaxation {
     for (std::size_t e = 0; e < edges.size(); ++e) {
       places_.push_back(edges[e].arcLength);
       for (std::size_t i = edges[e].slidesAtStart ? 0 : 1; i + 1 < edges[e].nodes.size(); ++i) {
-        sliders_.push_back({e, i});
+        const std::vector<double>& stays = edges[e].stays;
+        if (!std::binary_search(stays.begin(), stays.end(), edges[e].arcLength[i])) sliders_.push_back({e, i});
       }
     }
   }

@@ -10,6 +10,7 @@
 #include "qmcf/io/write.hpp"
 #include "qmcf/pipeline/report_json.hpp"
 #include "report_text.hpp"
+#include "sizing_file.hpp"
 #include "stage_clock.hpp"
 
 namespace qmcf::cli {
@@ -24,7 +25,7 @@ std::optional<Error> checkCommand(const MeshCommand& command) {
   }
   if (std::optional<Error> error = validateOptions(command.options)) return error;
   if (std::optional<Error> error = checkWritable(command.output)) return error;
-  for (const std::string& file : {command.report, command.trace}) {
+  for (const std::string& file : {command.report, command.trace, command.sizingOut}) {
     if (std::optional<Error> error = file.empty() ? std::nullopt : checkWritable(file)) return error;
   }
   return std::nullopt;
@@ -74,6 +75,10 @@ int run(const MeshCommand& command) {
   }
   if (!command.trace.empty()) {
     if (const std::optional<Error> error = writeFile(command.trace, traceJson(mesh))) return fail(*error);
+  }
+  if (!command.sizingOut.empty()) {
+    const std::string sizes = sizingText(model.value(), mesh.vertexSize);
+    if (const std::optional<Error> error = writeFile(command.sizingOut, sizes)) return fail(*error);
   }
   if (command.quiet) return kDone;
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;

@@ -22,6 +22,9 @@ Result<std::int64_t> relaxJoint(const TriangleMesh& mesh, const Brep& brep, cons
     const bool closesSmoothly = brep.edges[e].start == brep.edges[e].end &&
                                 brep.vertices[static_cast<std::size_t>(brep.edges[e].start)].artificial;
     edges.push_back({edgeCurve(mesh, brep.edges[e]), shared.edges[e].nodes, shared.edges[e].arcLength, closesSmoothly});
+    for (const std::int32_t stop : brep.edges[e].stops) {
+      edges.back().stays.push_back(edges.back().curve.arcLength[static_cast<std::size_t>(stop)]);
+    }
   }
   JointRelaxationOptions options;
   options.sizeScale = sizeScale;

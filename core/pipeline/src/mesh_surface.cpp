@@ -9,11 +9,13 @@
 #include <string>
 #include <utility>
 
+#include "count_correction.hpp"
 #include "covered_faces.hpp"
 #include "join_faces.hpp"
 #include "mesh_faces.hpp"
 #include "prepare.hpp"
 #include "qmcf/base/parallel.hpp"
+#include "size_conformity.hpp"
 #include "too_coarse.hpp"
 
 namespace qmcf {
@@ -44,6 +46,11 @@ constexpr double kFewElements = 300.0;
 /// How often faces are made of the part's own triangles before a mesh is given up.
 constexpr int kMaxGivenRounds = 5;
 constexpr std::size_t kMostGiven = 10000;  ///< Triangles of such a face, besides twice the elements.
+/// How often the number of elements asked of the size field is corrected by what the front made of it, and until when.
+/// A large mesh is corrected once, by a mesh of this many elements.
+constexpr int kMaxCorrections = 3;
+constexpr double kCountTolerance = 0.012;
+constexpr std::int64_t kMostTried = 25'000;
 /// Two faces between the same edges that are nearer to each other than this, in units of the base, get one mesh.
 constexpr double kTellApart = 0.25;
 
@@ -85,8 +92,9 @@ QualityOptions qualityOptions(const MeshOptions& options, double size) {
 /// Meshes an inspected part; as long as the mesh is not valid and smaller elements may help, once more with these.
 class MeshRun {
  public:
-  MeshRun(MeshResult inspected, const MeshOptions& options, Progress& progress)
+  MeshRun(const TriangleMesh& input, MeshResult inspected, const MeshOptions& options, Progress& progress)
       : result_(std::move(inspected)),
+        inputPositions_(input.positions),
         mesh_(result_.input.repaired.mesh),
         brep_(result_.input.brep),
         options_(options),
@@ -97,17 +105,17 @@ class MeshRun {
   }
 
   Result<MeshResult> run() {
-    auto preparation = prepareFaces(mesh_, brep_, options_, progress_);
+    auto preparation = options_.quads ? prepareForCount(*options_.quads) : prepare(options_);
     if (!preparation) return preparation.error();
     PreparedFaces prepared = std::move(preparation).value();
     const double base = prepared.size.base;
     result_.size = base / coarsening_;
-    covered_ = coveredFaces(mesh_, brep_, kTellApart * base);
-    faces_.resize(brep_.faces.size());
     std::size_t fewest = 0;
     double mostElements = 0.0;
     for (int round = 0;; ++round) {
-      if (const auto error = meshChanged(prepared)) return *error;
+      if (round > 0) {
+        if (const auto error = meshChanged(prepared)) return *error;
+      }
       auto attempted = attempt(prepared);
       if (!attempted) return attempted.error();
       std::vector<SizeLimit> limits = std::move(attempted.value().limits);
@@ -176,6 +184,62 @@ class MeshRun {
     QualityReport quality;
     std::vector<SizeLimit> limits;  ///< Where smaller elements may make it valid.
   };
+
+  /// Everything from the sizes to the meshed faces.
+  Result<PreparedFaces> prepare(const MeshOptions& options) {
+    auto prepared = prepareFaces(mesh_, brep_, options, progress_);
+    if (!prepared) return prepared;
+    covered_ = coveredFaces(mesh_, brep_, kTellApart * prepared.value().size.base);
+    faces_.assign(brep_.faces.size(), MeshedFace{});
+    if (const auto error = meshChanged(prepared.value())) return *error;
+    return prepared;
+  }
+
+  /// The number of elements of the meshed faces, once they are joined.
+  [[nodiscard]] double elementCount() const {
+    std::int64_t quads = 0;
+    std::int64_t triangles = 0;
+    for (const MeshedFace& face : faces_) {
+      quads += face.report.quads;
+      triangles += face.report.triangles;
+    }
+    return static_cast<double>(options_.allQuad ? 4 * quads + 3 * triangles : quads + triangles);
+  }
+
+  /// Faces that are not meshed by the first way tried.
+  static std::ptrdiff_t fallbacks(const std::vector<MeshedFace>& faces) {
+    return std::count_if(faces.begin(), faces.end(),
+                         [](const MeshedFace& face) { return !face.report.reason.empty(); });
+  }
+
+  /// As prepare(), with sizes such that there are about `wanted` elements in the end.
+  Result<PreparedFaces> prepareForCount(std::int64_t wanted) {
+    MeshOptions options = options_;
+    options.quads = std::min(wanted, kMostTried);
+    auto best = prepare(options);
+    if (!best) return best;
+    CountCorrection correction(*options.quads);
+    double made = elementCount();
+    options.quads = correction.next(made, wanted);
+    if (wanted > kMostTried) return prepare(options);
+    for (int i = 0; i < kMaxCorrections && correction.miss(made) > kCountTolerance; ++i) {
+      CoveredFaces covered = covered_;
+      std::vector<MeshedFace> faces = std::move(faces_);
+      const std::ptrdiff_t fallbacksBefore = fallbacks(faces);
+      auto next = prepare(options);
+      if (!next) return next;
+      const double now = elementCount();
+      options.quads = correction.next(now, wanted);
+      if (correction.miss(now) < correction.miss(made) && fallbacks(faces_) <= fallbacksBefore) {
+        best = std::move(next);
+        made = now;
+      } else {
+        covered_ = std::move(covered);
+        faces_ = std::move(faces);
+      }
+    }
+    return best;
+  }
 
   /// Calls work(face, progress) for each of the faces that are not omitted, several at a time.
   template <class Work>
@@ -278,10 +342,13 @@ class MeshRun {
       result_.fieldSingularities += static_cast<std::int64_t>(field.singularities.size());
     }
     result_.refinedPlaces = static_cast<std::int64_t>(prepared.size.limits.size());
-    sizes_ = {prepared.size.base, prepared.size.limits, prepared.minimumDivisions};
+    sizes_ = {prepared.size.base, prepared.size.limits, prepared.minimumDivisions, prepared.size.chordSize};
+    result_.sizeConformity = sizeConformity(result_.mesh, prepared, coarsening_);
+    result_.vertexSize = sizesAt(inputPositions_, mesh_, prepared.size, coarsening_);
   }
 
   MeshResult result_;
+  const std::vector<Vec3>& inputPositions_;
   const TriangleMesh& mesh_;
   const Brep& brep_;
   MeshOptions options_;
@@ -354,7 +421,7 @@ Result<MeshResult> meshSurface(const TriangleMesh& input, const MeshOptions& opt
   if (!inspected) return inspected.error();
   MeshResult result;
   result.input = std::move(inspected).value();
-  return MeshRun(std::move(result), withDefaults(options), progress).run();
+  return MeshRun(input, std::move(result), withDefaults(options), progress).run();
 }
 
 }  // namespace qmcf

@@ -75,6 +75,7 @@ class Preparation {
     sizing_.quads.reset();
     sizing_.limits = sizes.limits;
     minimum_ = sizes.minimumDivisions;
+    sizing_.chordSize = sizes.chordSize;
   }
 
   /// From now on the base size is what it was, whatever number of elements that makes.
@@ -82,6 +83,7 @@ class Preparation {
     sizing_.size = result_.size.base;
     sizing_.quads.reset();
     sizing_.limits = result_.size.limits;
+    sizing_.chordSize = result_.size.chordSize;
     minimum_ = result_.minimumDivisions;
   }
 

@@ -32,6 +32,7 @@ struct PreparedSizes {
   double base = 0.0;
   std::vector<SizeLimit> limits;
   std::vector<std::int32_t> minimumDivisions;
+  double chordSize = 0.0;
 };
 
 /// Size field, divided edges, background triangulations and cross fields. Edges whose chords would cut through a face

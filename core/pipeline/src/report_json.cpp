@@ -26,6 +26,14 @@ Json toValue(const LedgerEntry& entry) {
   return {{"elements", entry.elements}, {"vertices", entry.vertices}, {"index", entry.index}};
 }
 
+Json toValue(const SizeConformity& sizes) {
+  return {{"meanAbsLog2", sizes.meanAbsLog2},
+          {"p5", sizes.p5},
+          {"median", sizes.median},
+          {"p95", sizes.p95},
+          {"withinSqrt2", sizes.withinSqrt2}};
+}
+
 Json toValue(const ValidityCheck& check) {
   return {{"name", check.name},
           {"status", checkStatusName(check.status)},
@@ -179,7 +187,8 @@ std::string toJson(const MeshResult& result) {
                {"fieldSingularities", result.fieldSingularities},
                {"refinedPlaces", result.refinedPlaces},
                {"relaxedTogether", result.relaxedTogether},
-               {"slidNodes", result.slidNodes}});
+               {"slidNodes", result.slidNodes},
+               {"sizeConformity", toValue(result.sizeConformity)}});
 }
 
 }  // namespace qmcf

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "edge_groups.hpp"
+#include "node_places.hpp"
 #include "parity.hpp"
 #include "qmcf/base/math.hpp"
 #include "qmcf/sizing/edge_curve.hpp"
@@ -16,16 +17,10 @@ namespace qmcf {
 namespace {
 
 /// One edge on its way to whole divisions.
-struct Plan {
-  EdgeCurve curve;
-  EdgeSizes sizes;
-  std::vector<double> integral;  ///< Per sample: the integral of ds / h from the start.
-  std::vector<double> stops;     ///< Integral at the start, at each corner that gets a node, and at the end.
+struct Plan : PlacedCurve {
   std::int32_t least = 1;
   std::int32_t count = 1;
   bool asGiven = false;  ///< The curve's own points are the nodes.
-
-  [[nodiscard]] double wanted() const { return integral.back(); }
 };
 
 EdgeSizes sizesOf(const SizeField& size, const BrepEdge& edge, const EdgeCurve& curve, std::size_t e) {
@@ -35,21 +30,13 @@ EdgeSizes sizesOf(const SizeField& size, const BrepEdge& edge, const EdgeCurve& 
   return sizes;
 }
 
-/// The corners of a coarse polygon get nodes where there is room for an element on both sides.
-std::vector<double> stopsOf(const Plan& plan, std::int32_t minimum) {
-  constexpr double kCorner = math::kPi / 12.0;
-  const double room = 0.75 * std::min(1.0, plan.wanted() / minimum);
-  const std::vector<Vec3>& points = plan.curve.points;
-  std::vector<double> stops{0.0};
-  for (std::size_t i = 1; i + 1 < points.size(); ++i) {
-    const double at = interpolate(plan.sizes.arcLength, plan.integral, plan.curve.arcLength[i]);
-    if (at - stops.back() < room || plan.wanted() - at < room) continue;
-    const Vec3 before = points[i] - points[i - 1];
-    const Vec3 after = points[i + 1] - points[i];
-    if (math::atan2(norm(cross(before, after)), dot(before, after)) >= kCorner) stops.push_back(at);
+/// The least number of divisions from `count` on whose chords follow the edge; `count` where half as many again don't.
+std::int32_t followingCount(const PlacedCurve& placed, std::int32_t count, double mostSagitta) {
+  const std::int32_t most = count + count / 2 + 2;
+  for (std::int32_t n = count; n <= most; ++n) {
+    if (placeNodesOnCurve(placed, n).sagitta <= mostSagitta) return n;
   }
-  stops.push_back(plan.wanted());
-  return stops;
+  return count;
 }
 
 Plan planEdge(const TriangleMesh& mesh, const BrepEdge& edge, const SizeField& size, std::size_t e,
@@ -63,14 +50,16 @@ Plan planEdge(const TriangleMesh& mesh, const BrepEdge& edge, const SizeField& s
     const double density = 0.5 * (1.0 / plan.sizes.value[i] + 1.0 / plan.sizes.value[i + 1]);
     plan.integral.push_back(plan.integral.back() + length * density);
   }
-  plan.stops = stopsOf(plan, minimum);
-  plan.least = std::max({minimum, plan.curve.closed ? 3 : 1, static_cast<std::int32_t>(plan.stops.size()) - 1});
+  plan.stops = edge.stops;
+  plan.chordSize = size.chordSize;
+  plan.least = std::max(minimum, plan.curve.closed ? 3 : 1);
   if (e < size.minimumDivisions.size()) plan.least = std::max(plan.least, size.minimumDivisions[e]);
-  std::int32_t rounded = 0;
-  for (std::size_t k = 0; k + 1 < plan.stops.size(); ++k) {
-    rounded += std::max(1, static_cast<std::int32_t>(std::floor(plan.stops[k + 1] - plan.stops[k] + 0.5)));
+  plan.count = std::max(plan.least, static_cast<std::int32_t>(std::floor(plan.wanted() + 0.5)));
+  plan.count = followingCount(plan, plan.count, size.mostSagitta);
+  // One fewer, if that is as good.
+  if (plan.count > plan.least && placeNodesOnCurve(plan, plan.count - 1).sagitta > size.mostSagitta) {
+    plan.least = plan.count;
   }
-  plan.count = std::max(plan.least, rounded);
   return plan;
 }
 
@@ -240,55 +229,9 @@ void fillSmallLoops(std::vector<Plan>& plans, const Brep& brep) {
   }
 }
 
-/// Shares plan.count out among the stretches between stops, by their integrals.
-std::vector<std::int32_t> shares(const Plan& plan) {
-  const std::size_t stretches = plan.stops.size() - 1;
-  const double scale = plan.wanted() > 0.0 ? static_cast<double>(plan.count) / plan.wanted() : 0.0;
-  std::vector<std::int32_t> share(stretches, 1);
-  std::int32_t sum = 0;
-  const auto width = [&plan](std::size_t k) { return plan.stops[k + 1] - plan.stops[k]; };
-  for (std::size_t k = 0; k < stretches; ++k) {
-    share[k] = std::max(1, static_cast<std::int32_t>(std::floor(width(k) * scale + 0.5)));
-    sum += share[k];
-  }
-  while (sum != plan.count) {
-    const std::int32_t by = sum < plan.count ? 1 : -1;
-    std::size_t best = stretches;
-    for (std::size_t k = 0; k < stretches; ++k) {
-      if (by < 0 && share[k] == 1) continue;
-      const auto worse = [&](std::size_t i, std::size_t j) {
-        const double a = width(i) / (share[i] + 0.5 * by);
-        const double b = width(j) / (share[j] + 0.5 * by);
-        return by > 0 ? a > b : a < b;
-      };
-      if (best == stretches || worse(k, best)) best = k;
-    }
-    share[best] += by;
-    sum += by;
-  }
-  return share;
-}
-
-/// Arc lengths of the plan's nodes, both ends included.
-std::vector<double> nodePlaces(const Plan& plan) {
-  if (plan.asGiven) return plan.curve.arcLength;
-  std::vector<double> places;
-  const std::vector<std::int32_t> share = shares(plan);
-  for (std::size_t k = 0; k < share.size(); ++k) {
-    const double from = plan.stops[k];
-    const double width = plan.stops[k + 1] - from;
-    for (std::int32_t i = 0; i < share[k]; ++i) {
-      places.push_back(interpolate(plan.integral, plan.sizes.arcLength, from + width * i / share[k]));
-    }
-  }
-  places.front() = 0.0;
-  places.push_back(plan.curve.length());
-  return places;
-}
-
 void placeNodes(DividedEdges& divided, const Plan& plan, const BrepEdge& edge) {
   EdgeDivision division;
-  division.arcLength = nodePlaces(plan);
+  division.arcLength = plan.asGiven ? plan.curve.arcLength : placeNodesOnCurve(plan, plan.count).arcLength;
   for (std::size_t i = 0; i < division.arcLength.size(); ++i) {
     const double s = division.arcLength[i];
     const double h = interpolate(plan.sizes.arcLength, plan.sizes.value, s);

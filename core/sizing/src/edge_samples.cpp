@@ -11,16 +11,22 @@
 namespace qmcf {
 namespace {
 
-/// The largest size in [lowest, highest] around s within which the curve turns by maxTurn at most.
-double sizeByTurning(const Turning& turning, double s, double maxTurn, double lowest, double highest) {
+/// The largest size in [lowest, highest] around s within which the curve turns by maxTurn at most, and as an arc of so
+/// much turn is mostSagitta from its chord at most.
+double sizeByTurning(const Turning& turning, double s, double maxTurn, double mostSagitta, double lowest,
+                     double highest) {
   constexpr int kBisections = 24;
   constexpr double kRoundOff = 1e-9;
-  if (turning.within(s, highest) <= maxTurn + kRoundOff) return highest;
+  const auto fits = [&](double width) {
+    const double turn = turning.within(s, width);
+    return turn <= maxTurn + kRoundOff && width * turn <= 8.0 * mostSagitta;
+  };
+  if (fits(highest)) return highest;
   double low = 0.0;
   double high = highest;
   for (int i = 0; i < kBisections && high > lowest; ++i) {
     const double middle = 0.5 * (low + high);
-    (turning.within(s, middle) <= maxTurn + kRoundOff ? low : high) = middle;
+    (fits(middle) ? low : high) = middle;
   }
   return std::max(low, lowest);
 }
@@ -54,7 +60,8 @@ void resample(EdgeSamples& samples, double base, double spacing) {
   }
 }
 
-std::vector<std::int32_t> limitByTurning(EdgeSamples& samples, std::int32_t divisionsPerTurn, double lowest) {
+std::vector<std::int32_t> limitByTurning(EdgeSamples& samples, std::int32_t divisionsPerTurn, double lowest,
+                                         double mostSagitta) {
   // Wiggles below these are noise: of the element size, and of a small edge's own length.
   constexpr double kOfSize = 0.02;
   constexpr double kOfLength = 0.005;
@@ -68,7 +75,8 @@ std::vector<std::int32_t> limitByTurning(EdgeSamples& samples, std::int32_t divi
     if (curve.closed) minimum[e] = turning.total() >= kNearlyFullTurn * fullTurn ? divisionsPerTurn : 3;
     EdgeSizes& sizes = samples.sizes[e];
     for (std::size_t i = 0; i < sizes.value.size(); ++i) {
-      const double size = sizeByTurning(turning, sizes.arcLength[i], fullTurn / divisionsPerTurn, lowest, samples.base);
+      const double size =
+          sizeByTurning(turning, sizes.arcLength[i], fullTurn / divisionsPerTurn, mostSagitta, lowest, samples.base);
       sizes.value[i] = std::min(sizes.value[i], size);
     }
   }

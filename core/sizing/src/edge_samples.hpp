@@ -30,9 +30,10 @@ struct Gap {
 /// Puts samples at each point of every edge and, between points, at most `spacing` apart, all with the size `base`.
 void resample(EdgeSamples& samples, double base, double spacing);
 
-/// Lowers sizes where an edge turns by more than a full turn / divisionsPerTurn within the size.
-/// Returns the least number of divisions per edge.
-std::vector<std::int32_t> limitByTurning(EdgeSamples& samples, std::int32_t divisionsPerTurn, double lowest);
+/// Lowers sizes where an edge turns by more than a full turn / divisionsPerTurn within the size, or is farther than
+/// mostSagitta (a length) from a chord of the size. Returns the least number of divisions per edge.
+std::vector<std::int32_t> limitByTurning(EdgeSamples& samples, std::int32_t divisionsPerTurn, double lowest,
+                                         double mostSagitta);
 
 /// Lowers sizes on edges shorter than the size.
 void limitByLength(EdgeSamples& samples, double lowest);

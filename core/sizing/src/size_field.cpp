@@ -23,6 +23,8 @@ constexpr double kSampleSpacing = 0.5;
 constexpr int kAttempts = 6;
 constexpr double kCountTolerance = 0.02;
 constexpr double kReachByCount = 3.0;
+// A smooth arc in the least number of divisions, and some room for corners of its polygon.
+constexpr double kRoomForSagitta = 1.1;
 constexpr std::int64_t kDefaultQuads = 3000;
 constexpr std::int64_t kMostQuads = 10'000'000;
 
@@ -43,6 +45,12 @@ Result<double> baseSize(const Brep& brep, const SizingOptions& options) {
   const std::int64_t quads = options.quads.value_or(kDefaultQuads);
   if (quads < 1 || quads > kMostQuads) return invalid("The number of quads must be between 1 and 10,000,000.");
   return std::sqrt(area / static_cast<double>(quads));
+}
+
+/// Distance of an arc from its chord, in units of the chord, where so many chords make a full turn.
+double arcSagitta(std::int32_t divisionsPerTurn) {
+  const double quarter = 0.5 * math::kPi / divisionsPerTurn;  // Of the angle that a chord spans.
+  return 0.5 * math::sin(quarter) / math::cos(quarter);
 }
 
 /// Finds the base size for a count by secants: the count falls like a power of the size, with an exponent near 2 where
@@ -149,6 +157,7 @@ Result<SizeField> computeSizeField(const TriangleMesh& mesh, const Brep& brep, c
   if (!(options.gradation > 0.0) || options.gradation > 1.0) {
     return invalid("The gradation must be above 0 and at most 1.");
   }
+  if (options.chordSize && !(*options.chordSize > 0.0)) return invalid("The chord size must be above 0.");
   if (options.divisionsPerTurn < 3) return invalid("A full turn needs at least 3 divisions.");
   const Result<double> base = baseSize(brep, options);
   if (!base.ok()) return base.error();
@@ -165,13 +174,16 @@ Result<SizeField> computeSizeField(const TriangleMesh& mesh, const Brep& brep, c
   SizeField field;
   field.base = base.value();
   field.gradation = options.gradation;
+  field.mostSagitta = kRoomForSagitta * arcSagitta(options.divisionsPerTurn);
+  field.chordSize = options.chordSize.value_or(base.value());
   field.limits = options.limits;
   CountSearch search(field.base);
   const auto wanted = static_cast<double>(options.quads.value_or(kDefaultQuads));
   for (int attempt = 0; attempt < kAttempts; ++attempt) {
     if (!progress.report(Stage::sizing, 0.6 + 0.05 * attempt)) return cancelledError();
     resample(samples, field.base, kSampleSpacing * field.base);
-    field.minimumDivisions = limitByTurning(samples, options.divisionsPerTurn, kLowestByTurning * field.base);
+    field.minimumDivisions = limitByTurning(samples, options.divisionsPerTurn, kLowestByTurning * field.base,
+                                            field.mostSagitta * field.chordSize);
     limitByLength(samples, kLowestByLength * field.base);
     limitByGaps(samples, *gaps, kLowestByProximity * field.base);
     SampleGraph graph(samples, brep, options.limits);

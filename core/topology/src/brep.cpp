@@ -162,6 +162,7 @@ class BrepBuilder {
       edge.points.push_back(next.value);
       v = next;
       if (role_[v.index()] != Role::none) break;
+      if (features_.junction[v.index()] != 0) edge.stops.push_back(static_cast<std::int32_t>(edge.points.size()) - 1);
       const auto around = around_.at(v);
       e = around[0] == e ? around[1] : around[0];
     }

@@ -16,7 +16,7 @@ constexpr std::size_t kLongestExtension = 64;
 /// Dihedral angles down to this part of the angle that makes an edge sharp may continue a chain.
 constexpr double kWeakAngle = 0.6;
 /// A dangling chain shorter than this part of its body's diagonal is noise; in a scattered body, the larger part.
-constexpr double kShortChain = 0.03;
+constexpr double kShortChain = 0.012;
 constexpr double kShortScatteredChain = 0.1;
 /// A body is scattered when its sharp edges have at least this many loose ends, and one per this many edges.
 constexpr std::int64_t kManyLooseEnds = 8;
@@ -229,6 +229,18 @@ class Chains {
   std::vector<int> valence_;
 };
 
+/// Marks the vertices where creases end or branch. In a scattered body that is noise.
+void markJunctions(const TriangleEdges& edges, const Bodies& bodies, const std::vector<std::uint8_t>& scattered,
+                   FeatureEdges& features) {
+  std::vector<std::int32_t> valence(edges.vertexCount(), 0);
+  for (const EdgeId e : edges.edges()) {
+    if (features.mark[e] == 0 || scattered[bodies.of(edges, e)] != 0) continue;
+    for (const VertexId v : edges.ends(e)) ++valence[v.index()];
+  }
+  features.junction.assign(valence.size(), 0);
+  for (std::size_t v = 0; v < valence.size(); ++v) features.junction[v] = valence[v] != 0 && valence[v] != 2 ? 1 : 0;
+}
+
 /// A single edge in the middle of a sheet can't be cut open. Pruning leaves one where another sheet touches its end.
 void dropLoneEdges(const TriangleEdges& edges, FeatureEdges& features) {
   const Fans fans = buildFans(edges, features.mark);
@@ -254,6 +266,7 @@ std::vector<std::uint8_t> cleanFeatureChains(const TriangleMesh& mesh, const Tri
       features.mark[e] = 0;
     }
   }
+  markJunctions(edges, bodies, scattered, features);
   {
     Chains chains(mesh, edges, features, bodies, limits);
     chains.extend();

@@ -16,6 +16,8 @@ struct FeatureEdges {
   IdMap<EdgeId, std::uint8_t> mark;
   /// Angle between the normals of a manifold edge's triangles in radians, 0 elsewhere.
   IdMap<EdgeId, double> dihedral;
+  /// Per vertex of the mesh: 1 where other than two cutting edges met before chains were cleaned. Empty before that.
+  std::vector<std::uint8_t> junction;
 
   [[nodiscard]] bool is(EdgeId e, EdgeKind kind) const { return mark[e] == 1 + static_cast<std::uint8_t>(kind); }
   void set(EdgeId e, EdgeKind kind) { mark[e] = static_cast<std::uint8_t>(1 + static_cast<std::uint8_t>(kind)); }

@@ -123,11 +123,62 @@ TEST(DivideEdges, SheetsAtANonManifoldEdgeAreEven) {
 }
 
 TEST(DivideEdges, CirclesHaveEightDivisionsWhenTheSizeIsLarge) {
-  for (const int segments : {12, 32, 100}) {
+  for (const int segments : {32, 100}) {
     const Divided d = divide(parts::disk(segments, 1.0), 3.0);
     ASSERT_EQ(d.edges.edges.size(), 1U);
     EXPECT_EQ(divisions(d, 0), 8) << segments;
     EXPECT_EQ(d.edges.edges[0].nodes.front(), d.edges.edges[0].nodes.back());
+  }
+}
+
+/// Largest distance of an edge's points from the chords between its nodes.
+double largestSagitta(const Divided& d, std::size_t e) {
+  const EdgeDivision& division = d.edges.edges[e];
+  EdgeCurve chords;
+  for (const std::int32_t node : division.nodes) chords.points.push_back(d.edges.nodes[static_cast<std::size_t>(node)]);
+  double largest = 0.0;
+  for (const Vec3& p : edgeCurve(d.mesh, d.brep.edges[e]).points)
+    largest = std::max(largest, distanceToCurve(chords, p));
+  return largest;
+}
+
+TEST(DivideEdges, ChordsStayWithinATenthOfTheSizeOfCoarsePolygons) {
+  // Eight chords of a polygon of 12 or 13 sides would have to leave out corners.
+  for (const int segments : {9, 10, 11, 12, 13, 14, 17}) {
+    const Divided d = divide(parts::disk(segments, 1.0), 3.0);
+    const double h = math::kPi / 4.0;
+    EXPECT_LT(largestSagitta(d, 0), 0.11 * h) << segments;
+    EXPECT_LE(divisions(d, 0), segments + 2) << segments;
+  }
+}
+
+TEST(DivideEdges, ChordsFollowARoundedCornerBetweenLongSides) {
+  // No chord cuts off a small arc in the middle of an edge, wherever the equal parts fall.
+  for (const double length : {5.0, 5.3, 5.6, 5.9, 6.2, 6.5}) {
+    // A fan from the first point: along -y = 0.5, an eighth of a turn round the origin, then up at 45 degrees.
+    TriangleMesh mesh;
+    mesh.positions = {{-length, 9.0, 0.0}, {-length, -0.5, 0.0}};
+    for (int i = 0; i <= 6; ++i) mesh.positions.push_back(parts::onCircle(0.5, -0.25 + 0.125 * i / 6.0));
+    mesh.positions.push_back(mesh.positions.back() + Vec3{length, length, 0.0});
+    const auto last = static_cast<std::int32_t>(mesh.positions.size()) - 1;
+    for (std::int32_t i = 1; i < last; ++i) mesh.triangles.push_back({0, i, i + 1});
+    const Divided d = divide(mesh, 1.0);
+    for (std::size_t e = 0; e < d.brep.edges.size(); ++e) EXPECT_LT(largestSagitta(d, e), 0.12) << length;
+  }
+}
+
+TEST(DivideEdges, StopsOfAnEdgeBecomeNodes) {
+  Divided d = divide(parts::plateWithHole(5.0, {}, 1.0, 64), 0.9);
+  for (std::size_t e = 0; e < d.brep.edges.size(); ++e) {
+    if (d.brep.edges[e].points.size() < 60) continue;
+    d.brep.edges[e].stops = {7, 29};
+    const DividedEdges divided = divideEdges(d.mesh, d.brep, d.field);
+    for (const std::int32_t stop : d.brep.edges[e].stops) {
+      const Vec3 p = d.mesh.positions[static_cast<std::size_t>(d.brep.edges[e].points[static_cast<std::size_t>(stop)])];
+      double nearest = HUGE_VAL;
+      for (const Vec3& node : divided.nodes) nearest = std::min(nearest, distance(node, p));
+      EXPECT_LT(nearest, 1e-9);
+    }
   }
 }
 

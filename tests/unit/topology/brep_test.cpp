@@ -269,6 +269,20 @@ TEST(Brep, ShortCreaseInASmoothFaceIsNoise) {
   EXPECT_EQ(edgesOfKind(checkedBrep(foldedSheet(64, angle), 25.0), EdgeKind::sharp), 1U);
 }
 
+TEST(Brep, WhereACreaseIsInterruptedItsEdgeHasStops) {
+  // 52 degrees at both ends, 22 in the middle: continued there, and the ends of the sharp parts are remembered.
+  const auto angle = [](double v) { return (22.0 + 30.0 * (2.0 * v - 1.0) * (2.0 * v - 1.0)) * kPi / 180.0; };
+  const Brep brep = checkedBrep(foldedSheet(32, angle));
+  ASSERT_EQ(edgesOfKind(brep, EdgeKind::sharp), 1U);
+  for (const BrepEdge& edge : brep.edges) {
+    EXPECT_EQ(edge.stops.size(), edge.kind == EdgeKind::sharp ? 2U : 0U);
+    for (const std::int32_t stop : edge.stops) {
+      EXPECT_GT(stop, 0);
+      EXPECT_LT(static_cast<std::size_t>(stop), edge.points.size() - 1);
+    }
+  }
+}
+
 TEST(Brep, LongCreaseThatFadesOutStaysAsASlit) {
   const Brep brep = checkedBrep(foldedSheet(32, [](double v) { return 80.0 * (1.0 - v) * (1.0 - v) * kPi / 180.0; }));
   ASSERT_EQ(brep.faces.size(), 1U);

@@ -27,6 +27,7 @@ struct JointEdge {
   std::vector<std::int32_t> nodes;  ///< From start to end; closed: first == last.
   std::vector<double> arcLength;    ///< Per entry, ascending from 0 to the length.
   bool slidesAtStart = false;       ///< The edge is closed, and the vertex that closes it may slide, too.
+  std::vector<double> stays{};      ///< Arc lengths, ascending: a node exactly there does not slide.
 };
 
 struct JointRelaxationOptions {

@@ -70,6 +70,15 @@ struct FieldResult {
   std::vector<CrossField> fields;  ///< One per patch.
 };
 
+/// The lengths of a mesh's edges in units of the target at their midpoints: the size field that the run worked with.
+struct SizeConformity {
+  double meanAbsLog2 = 0.0;  ///< Mean |log2(length / target)|; 0 is perfect.
+  double p5 = 0.0;           ///< 5 % of the edges are shorter, in units of the target.
+  double median = 0.0;
+  double p95 = 0.0;
+  double withinSqrt2 = 0.0;  ///< Share of the edges between 1/sqrt2 and sqrt2.
+};
+
 /// How the faces were meshed, each by itself: up to where their meshes are relaxed together.
 struct MeshTrace {
   TraceScale scale;              ///< Of the coordinates.
@@ -84,6 +93,8 @@ struct MeshResult {
   QualityReport quality;
   std::vector<FaceReport> faces;
   std::int64_t fieldSingularities = 0;  ///< 0 in a mode without a cross field.
+  SizeConformity sizeConformity;
+  std::vector<double> vertexSize;  ///< Per vertex of the input: the target edge length there.
   std::int64_t refinedPlaces = 0;  ///< Where elements of the size asked for could not follow the part: smaller there.
   /// Whether the faces' meshes were relaxed together, across their edges; if not, because the mesh would not be valid.
   bool relaxedTogether = true;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -27,6 +28,9 @@ struct SizingOptions {
   double gradation = 0.2;  ///< Largest |grad h|, in (0, 1].
   std::int32_t divisionsPerTurn = 8;  ///< Least number of edges in a full turn of a feature edge, >= 3.
   std::vector<SizeLimit> limits;      ///< Where the elements have to be smaller.
+  /// What the chords' distance from a curved edge is measured by, > 0: SizeField::chordSize. Default: `size`, or the
+  /// root of area / quads.
+  std::optional<double> chordSize;
 };
 
 /// Target length along one edge of the B-rep, linear between samples.
@@ -44,12 +48,15 @@ struct SizeField {
   std::vector<EdgeSizes> edges;   ///< Per edge of the B-rep; finer than the edge's points where these are sparse.
   std::vector<SizeLimit> limits;  ///< As given, but graded.
   std::vector<std::int32_t> minimumDivisions;  ///< Per edge of the B-rep, >= 1: what its turns ask for.
+  /// Largest distance of an edge from its chords, in units of the size there and of chordSize, whichever is less.
+  double mostSagitta = 0.09;
+  double chordSize = std::numeric_limits<double>::infinity();  ///< The size that would be, were it the same everywhere.
 };
 
-/// The sizes: `size`, or the root of area / quads; smaller where a feature edge turns (at least divisionsPerTurn
-/// divisions in a full turn, also in a small closed edge), where two edges of a face run close to each other, and on
-/// short edges; not below a tenth of base, except by the divisions of a small closed edge and by limits; then graded.
-/// Complexity O(n log n). Errors: invalidOption, cancelled.
+/// The sizes: `size`, or a length such that the elements of the whole field are about `quads`; smaller where a feature
+/// edge turns (at least divisionsPerTurn divisions in a full turn, also in a small closed edge), where two edges of a
+/// face run close to each other, and on short edges; not below a tenth of base, except by the divisions of a small
+/// closed edge and by limits; then graded. Complexity O(n log n). Errors: invalidOption, cancelled.
 Result<SizeField> computeSizeField(const TriangleMesh& mesh, const Brep& brep, const SizingOptions& options,
                                    Progress& progress);
 

@@ -1,0 +1,119 @@
+#include "size_conformity.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+
+#include "qmcf/base/math.hpp"
+#include "qmcf/spatial/triangle_bvh.hpp"
+
+namespace qmcf {
+namespace {
+
+/// An edge of the mesh by its ends, ascending, and the face it is first met in.
+struct MeasuredEdge {
+  std::array<std::int32_t, 2> ends{};
+  std::int32_t element = 0;
+  std::int32_t face = kNone;
+};
+
+/// Each edge once, ordered by face.
+std::vector<MeasuredEdge> edgesOf(const QuadMesh& mesh) {
+  std::vector<MeasuredEdge> edges;
+  for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
+    const Element& element = mesh.elements[e];
+    const std::size_t corners = cornerCount(element);
+    for (std::size_t c = 0; c < corners; ++c) {
+      const auto [first, last] = std::minmax(element[c], element[(c + 1) % corners]);
+      edges.push_back({{first, last}, static_cast<std::int32_t>(e), mesh.elementFace[e]});
+    }
+  }
+  std::sort(edges.begin(), edges.end(), [](const MeasuredEdge& a, const MeasuredEdge& b) {
+    return a.ends != b.ends ? a.ends < b.ends : a.element < b.element;
+  });
+  const auto same = [](const MeasuredEdge& a, const MeasuredEdge& b) { return a.ends == b.ends; };
+  edges.erase(std::unique(edges.begin(), edges.end(), same), edges.end());
+  std::stable_sort(edges.begin(), edges.end(),
+                   [](const MeasuredEdge& a, const MeasuredEdge& b) { return a.face < b.face; });
+  return edges;
+}
+
+/// The size of a patch at the point of it that is closest.
+class PatchSizes {
+ public:
+  explicit PatchSizes(const Patch& patch) : patch_(patch), tree_(treeOf(patch.surface)) {}
+
+  [[nodiscard]] double at(const Vec3& p) const {
+    const ClosestPoint near = tree_.closest(p);
+    const std::array<VertexId, 3> corners = patch_.surface.corners(TriangleId(near.triangle));
+    double size = 0.0;
+    for (std::size_t c = 0; c < 3; ++c) size += near.barycentric[c] * patch_.size[corners[c]];
+    return size;
+  }
+
+ private:
+  static TriangleBvh treeOf(const Surface& surface) {
+    std::vector<Vec3> positions;
+    std::vector<std::array<std::int32_t, 3>> triangles;
+    for (const VertexId v : surface.vertices()) positions.push_back(surface.position(v));
+    for (const TriangleId t : surface.triangles()) {
+      const auto corners = surface.corners(t);
+      triangles.push_back({corners[0].value, corners[1].value, corners[2].value});
+    }
+    return {positions, triangles};
+  }
+
+  const Patch& patch_;
+  TriangleBvh tree_;
+};
+
+}  // namespace
+
+SizeConformity sizeConformity(const QuadMesh& mesh, const PreparedFaces& prepared, double coarsening) {
+  const std::vector<MeasuredEdge> edges = edgesOf(mesh);
+  std::vector<double> ratios;
+  for (std::size_t i = 0; i < edges.size();) {
+    const std::int32_t face = edges[i].face;
+    const PatchSizes sizes(prepared.patches[static_cast<std::size_t>(face)]);
+    for (; i < edges.size() && edges[i].face == face; ++i) {
+      const Vec3& a = mesh.positions[static_cast<std::size_t>(edges[i].ends[0])];
+      const Vec3& b = mesh.positions[static_cast<std::size_t>(edges[i].ends[1])];
+      ratios.push_back(distance(a, b) * coarsening / sizes.at((a + b) * 0.5));
+    }
+  }
+  SizeConformity result;
+  if (ratios.empty()) return result;
+  std::sort(ratios.begin(), ratios.end());
+  const auto count = static_cast<double>(ratios.size());
+  constexpr double kSqrt2 = 1.4142135623730951;
+  for (const double ratio : ratios) {
+    result.meanAbsLog2 += std::fabs(math::log2(ratio)) / count;
+    result.withinSqrt2 += ratio * kSqrt2 >= 1.0 && ratio <= kSqrt2 ? 1.0 / count : 0.0;
+  }
+  const auto percentile = [&](double share) { return ratios[static_cast<std::size_t>(share * (count - 1.0))]; };
+  result.p5 = percentile(0.05);
+  result.median = percentile(0.5);
+  result.p95 = percentile(0.95);
+  return result;
+}
+
+std::vector<double> sizesAt(const std::vector<Vec3>& points, const TriangleMesh& repaired, const SizeField& size,
+                            double coarsening) {
+  const TriangleBvh tree(repaired.positions, repaired.triangles);
+  std::vector<double> sizes;
+  sizes.reserve(points.size());
+  for (const Vec3& p : points) {
+    const ClosestPoint near = tree.closest(p);
+    const auto& corners = repaired.triangles[static_cast<std::size_t>(near.triangle)];
+    double sum = 0.0;
+    for (std::size_t c = 0; c < 3; ++c) {
+      sum += near.barycentric[c] * size.value[static_cast<std::size_t>(corners[c])];
+    }
+    sizes.push_back(sum / coarsening);
+  }
+  return sizes;
+}
+
+}  // namespace qmcf

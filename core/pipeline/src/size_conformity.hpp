@@ -1,0 +1,21 @@
+#pragma once
+
+#include <vector>
+
+#include "prepare.hpp"
+#include "qmcf/mesh/quad_mesh.hpp"
+#include "qmcf/mesh/triangle_mesh.hpp"
+#include "qmcf/pipeline/mesh_surface.hpp"
+
+namespace qmcf {
+
+/// The edges of `mesh` against the sizes of the faces' patches, divided by `coarsening`. An edge between two faces is
+/// measured once, in the first element that has it.
+SizeConformity sizeConformity(const QuadMesh& mesh, const PreparedFaces& prepared, double coarsening);
+
+/// The target length at each vertex of the input, divided by `coarsening`: the field's value at the closest point of
+/// the repaired mesh, linear in its triangles. Empty triangles: \pre repaired has at least one.
+std::vector<double> sizesAt(const std::vector<Vec3>& points, const TriangleMesh& repaired, const SizeField& size,
+                            double coarsening);
+
+}  // namespace qmcf
