@@ -100,17 +100,17 @@ async function measureCount(model, stl, quads, folder) {
   return { quads, run, peer, missed, perWork: run.cpuSeconds / (quads * Math.log(quads)) };
 }
 
-function printTable(rows) {
-  const stages = Object.keys(rows[0].run.report.seconds);
+function printHeader(stages) {
   console.log(`| quads | made | valid | CPU s | MB | growth over n log n | gmsh, CPU s | ${stages.join(' | ')} |`);
   console.log(`|${' --- |'.repeat(7 + stages.length)}`);
-  for (const { quads, run, peer, perWork } of rows) {
-    const { quality, seconds } = run.report;
-    const cells = [quads, quality.quads + quality.triangles, quality.valid ? 'yes' : 'no', run.cpuSeconds.toFixed(2),
-      run.peakMegabytes.toFixed(0), (perWork / rows[0].perWork).toFixed(2), peer ? peer.cpuSeconds.toFixed(2) : '',
-      ...stages.map((stage) => seconds[stage].toFixed(3))];
-    console.log(`| ${cells.join(' | ')} |`);
-  }
+}
+
+function printRow({ quads, run, peer, perWork }, first) {
+  const { quality, seconds } = run.report;
+  const cells = [quads, quality.quads + quality.triangles, quality.valid ? 'yes' : 'no', run.cpuSeconds.toFixed(2),
+    run.peakMegabytes.toFixed(0), (perWork / first.perWork).toFixed(2), peer ? peer.cpuSeconds.toFixed(2) : '',
+    ...Object.values(seconds).map((stage) => stage.toFixed(3))];
+  console.log(`| ${cells.join(' | ')} |`);
 }
 
 async function main() {
@@ -121,8 +121,12 @@ async function main() {
   try {
     const stl = hasGmsh() ? stlOf(model, folder) : null;
     const rows = [];
-    for (const quads of wanted) rows.push(await measureCount(model, stl, quads, folder));
-    printTable(rows);
+    for (const quads of wanted) {
+      const row = await measureCount(model, stl, quads, folder);
+      if (rows.length === 0) printHeader(Object.keys(row.run.report.seconds));
+      rows.push(row);
+      printRow(row, rows[0]);
+    }
     const missed = rows.flatMap((row) => row.missed);
     for (const row of rows) {
       if (row.perWork > GROWTH * rows[0].perWork) missed.push(`${row.quads}: grows faster than n log n`);
