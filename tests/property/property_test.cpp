@@ -11,7 +11,7 @@ namespace qmcf::property {
 namespace {
 
 constexpr std::uint64_t kFirstSeed = 1;
-constexpr std::uint64_t kCases = 200;
+constexpr std::uint64_t kCases = 150;
 constexpr std::size_t kMostTriangles = 700;  ///< Finer parts, which are revolutions, take too long for every build.
 
 TEST(Property, SmallCasesAreValidConformingAndClosed) {
