@@ -373,9 +373,9 @@ export interface MeshReport {
   readonly fieldSingularities: number;
   /** Where elements of the size asked for could not follow the part, so that there are smaller ones. */
   readonly refinedPlaces: number;
-  /** Whether the faces' meshes were relaxed together, across their edges; if not, because the mesh would not be valid. */
-  readonly relaxedTogether: boolean;
-  /** Nodes that this moved along their edges by more than a tenth of the element size. */
+  /** Faces that were not relaxed together with the others, across their edges, because they would not be valid then. */
+  readonly heldFaces: number;
+  /** Nodes that the others moved along their edges by more than a tenth of the element size. */
   readonly slidNodes: number;
   /** The lengths of the mesh's edges in units of the target at their midpoints. */
   readonly sizeConformity: SizeConformity;

@@ -98,7 +98,10 @@ class JointRelaxation {
       places_.push_back(edges[e].arcLength);
       for (std::size_t i = edges[e].slidesAtStart ? 0 : 1; i + 1 < edges[e].nodes.size(); ++i) {
         const std::vector<double>& stays = edges[e].stays;
-        if (!std::binary_search(stays.begin(), stays.end(), edges[e].arcLength[i])) sliders_.push_back({e, i});
+        if (std::binary_search(stays.begin(), stays.end(), edges[e].arcLength[i])) continue;
+        const std::vector<Occurrence>& at = occurrences_[nodeOf({e, i})];
+        const bool isHeld = std::any_of(at.begin(), at.end(), [&](const Occurrence& o) { return faces[o.face].held; });
+        if (!isHeld) sliders_.push_back({e, i});
       }
     }
   }

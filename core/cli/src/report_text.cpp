@@ -219,8 +219,9 @@ std::string meshText(const MeshResult& result) {
     const std::string places = counted(result.refinedPlaces, "place", "places");
     reasons += line("", "smaller elements at " + places + " that elements of the size could not follow");
   }
-  if (!result.relaxedTogether) {
-    reasons += line("", "nodes stay where the edges were divided: moved along them they would make the mesh invalid");
+  if (result.heldFaces > 0) {
+    const std::string held = counted(result.heldFaces, "face keeps its nodes", "faces keep their nodes");
+    reasons += line("", held + ": moved along their edges they would make the mesh invalid");
   }
   return text + line("Faces", join(parts)) + reasons;
 }

@@ -2,36 +2,38 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "qmcf/base/math.hpp"
 
 namespace qmcf {
 namespace {
 
+constexpr double kTolerance = 0.03;
+constexpr double kFromFeatures = 1.2;
 constexpr double kMostCorrection = 1.5;
 constexpr double kMostElements = 1e7;
-constexpr double kLeastExponent = 0.5;
-constexpr double kLargestExponent = 2.0;
+
+std::int64_t rounded(double asked) { return static_cast<std::int64_t>(std::clamp(asked, 1.0, kMostElements) + 0.5); }
+
+bool isNear(double ratio) { return ratio > 1.0 - kTolerance && ratio < 1.0 + kTolerance; }
 
 }  // namespace
 
-double CountCorrection::miss(double made) const {
-  return made > 0.0 ? std::fabs(math::log(made / wanted_)) : std::numeric_limits<double>::infinity();
+std::int64_t correctedCount(const CountTrial& trial, std::int64_t wanted) {
+  const double ratio = trial.made / static_cast<double>(trial.asked);
+  if (isNear(ratio) || ratio > kFromFeatures || !(ratio > 0.0)) return wanted;
+  return rounded(static_cast<double>(wanted) * std::min(1.0 / ratio, kMostCorrection));
 }
 
-std::int64_t CountCorrection::next(double made, std::int64_t wanted) {
-  if (made > 0.0) {
-    const double x = math::log(asked_);
-    const double y = math::log(made / wanted_);
-    if (tried_ && x != x_) exponent_ = std::clamp((y_ - y) / (x_ - x), kLeastExponent, kLargestExponent);
-    tried_ = true;
-    x_ = x;
-    y_ = y;
-    asked_ = std::clamp(math::exp(x - y / exponent_), wanted_ / kMostCorrection, wanted_ * kMostCorrection);
-  }
-  const double scaled = asked_ * (static_cast<double>(wanted) / wanted_);
-  return static_cast<std::int64_t>(std::clamp(scaled, 1.0, kMostElements) + 0.5);
+std::int64_t correctedCount(const CountTrial& first, const CountTrial& second, std::int64_t wanted) {
+  const auto goal = static_cast<double>(wanted);
+  const bool firstIsNearer = std::fabs(first.made - goal) <= std::fabs(second.made - goal);
+  const CountTrial& nearer = firstIsNearer ? first : second;
+  const bool isBetween = (first.made > goal) != (second.made > goal);
+  if (isNear(nearer.made / goal) || !isBetween || !(std::min(first.made, second.made) > 0.0)) return nearer.asked;
+  const double share = math::log(goal / first.made) / math::log(second.made / first.made);
+  const auto asked = static_cast<double>(first.asked);
+  return rounded(asked * math::exp(share * math::log(static_cast<double>(second.asked) / asked)));
 }
 
 }  // namespace qmcf

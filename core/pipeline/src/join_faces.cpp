@@ -9,13 +9,13 @@
 namespace qmcf {
 
 Result<std::int64_t> relaxJoint(const TriangleMesh& mesh, const Brep& brep, const PreparedFaces& prepared,
-                                std::vector<SharedFace>& faces, SharedNodes& shared, double sizeScale,
-                                Progress& progress) {
+                                std::vector<SharedFace>& faces, const std::vector<char>& held, SharedNodes& shared,
+                                double sizeScale, Progress& progress) {
   std::vector<TriangleBvh> trees;
   for (const BrepFace& face : brep.faces) trees.push_back(faceTree(mesh, face));
   std::vector<JointFace> joint;
   for (std::size_t f = 0; f < faces.size(); ++f) {
-    joint.push_back({&faces[f].mesh, &faces[f].node, &prepared.patches[f], &trees[f]});
+    joint.push_back({&faces[f].mesh, &faces[f].node, &prepared.patches[f], &trees[f], held[f] != 0});
   }
   std::vector<JointEdge> edges;
   for (std::size_t e = 0; e < brep.edges.size(); ++e) {

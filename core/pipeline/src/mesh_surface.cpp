@@ -43,14 +43,15 @@ constexpr double kLowestSize = 0.02;
 constexpr double kMostGrowth = 1.5;
 constexpr std::size_t kFewFaults = 10;
 constexpr double kFewElements = 300.0;
+/// How often faces are held where relaxing all together leaves elements that are not valid; the last time, all are.
+constexpr int kMaxHolds = 3;
 /// How often faces are made of the part's own triangles before a mesh is given up.
 constexpr int kMaxGivenRounds = 5;
 constexpr std::size_t kMostGiven = 10000;  ///< Triangles of such a face, besides twice the elements.
-/// How often the number of elements asked of the size field is corrected by what the front made of it, and until when.
-/// A large mesh is corrected once, by a mesh of this many elements.
-constexpr int kMaxCorrections = 3;
-constexpr double kCountTolerance = 0.012;
-constexpr std::int64_t kMostTried = 25'000;
+/// How often the number of elements asked of the size field is corrected by what the front made of it.
+constexpr int kMaxCorrections = 2;
+/// A large number of elements is corrected once, by what the front makes when asked for this many.
+constexpr std::int64_t kMostTried = 10'000;
 /// Two faces between the same edges that are nearer to each other than this, in units of the base, get one mesh.
 constexpr double kTellApart = 0.25;
 
@@ -163,7 +164,7 @@ class MeshRun {
       auto prepared = prepareGiven(mesh_, brep_, options_, sizes_, given, progress_);
       if (!prepared) return prepared.error();
       if (const auto error = meshChanged(prepared.value())) return error;
-      auto made = join(prepared.value(), false);
+      auto made = join(prepared.value(), std::vector<char>(faces_.size(), 1));
       if (!made) return made.error();
       atFault = facesAtFault(made.value().mesh, made.value().quality, brep_);
       if (countFaults(made.value().quality) < countFaults(result_.quality)) {
@@ -179,7 +180,7 @@ class MeshRun {
     QuadMesh mesh;
     std::vector<FaceReport> faces;
     std::vector<FaceTrace> traces;
-    bool relaxedTogether = false;
+    std::int64_t heldFaces = 0;
     std::int64_t slidNodes = 0;
     QualityReport quality;
     std::vector<SizeLimit> limits;  ///< Where smaller elements may make it valid.
@@ -218,21 +219,22 @@ class MeshRun {
     options.quads = std::min(wanted, kMostTried);
     auto best = prepare(options);
     if (!best) return best;
-    CountCorrection correction(*options.quads);
-    double made = elementCount();
-    options.quads = correction.next(made, wanted);
+    CountTrial tried{*options.quads, elementCount()};
+    options.quads = correctedCount(tried, wanted);
+    if (options.quads == tried.asked) return best;
     if (wanted > kMostTried) return prepare(options);
-    for (int i = 0; i < kMaxCorrections && correction.miss(made) > kCountTolerance; ++i) {
+    const auto miss = [wanted](double made) { return std::fabs(made - static_cast<double>(wanted)); };
+    for (int i = 0; i < kMaxCorrections && options.quads != tried.asked; ++i) {
       CoveredFaces covered = covered_;
       std::vector<MeshedFace> faces = std::move(faces_);
       const std::ptrdiff_t fallbacksBefore = fallbacks(faces);
       auto next = prepare(options);
       if (!next) return next;
-      const double now = elementCount();
-      options.quads = correction.next(now, wanted);
-      if (correction.miss(now) < correction.miss(made) && fallbacks(faces_) <= fallbacksBefore) {
+      const CountTrial now{*options.quads, elementCount()};
+      options.quads = correctedCount(tried, now, wanted);
+      if (miss(now.made) < miss(tried.made) && fallbacks(faces_) <= fallbacksBefore) {
         best = std::move(next);
-        made = now;
+        tried = now;
       } else {
         covered_ = std::move(covered);
         faces_ = std::move(faces);
@@ -282,16 +284,26 @@ class MeshRun {
     });
   }
 
-  /// The faces' meshes as one. Relaxed together, unless that costs the mesh its validity.
+  /// The faces' meshes as one, relaxed together. Faces that this would cost their validity are held, in the end all.
   Result<Attempt> attempt(const PreparedFaces& prepared) {
-    auto relaxed = join(prepared, true);
-    if (!relaxed || halvedWhereInvalid(relaxed.value().mesh, relaxed.value().quality).empty()) return relaxed;
-    auto plain = join(prepared, false);
-    if (!plain) return plain;
-    return plain.value().limits.size() < relaxed.value().limits.size() ? std::move(plain) : std::move(relaxed);
+    const auto faultsOf = [](const Attempt& made) { return halvedWhereInvalid(made.mesh, made.quality); };
+    std::vector<char> held(faces_.size(), 0);
+    auto best = join(prepared, held);
+    if (!best) return best;
+    std::vector<SizeLimit> faults = faultsOf(best.value());
+    for (int round = 0; round < kMaxHolds && !faults.empty(); ++round) {
+      for (const SizeLimit& fault : faults) held[static_cast<std::size_t>(fault.face)] = 1;
+      if (round + 1 == kMaxHolds) held.assign(held.size(), 1);
+      auto made = join(prepared, held);
+      if (!made) return made;
+      faults = faultsOf(made.value());
+      if (faults.size() < faultsOf(best.value()).size()) best = std::move(made);
+    }
+    return best;
   }
 
-  Result<Attempt> join(const PreparedFaces& prepared, bool together) {
+  /// held: per face, 1 if it is not relaxed with the others.
+  Result<Attempt> join(const PreparedFaces& prepared, const std::vector<char>& held) {
     Attempt made;
     SharedNodes shared = options_.allQuad ? halvedNodes(mesh_, brep_, prepared.divided) : sharedNodes(prepared.divided);
     std::vector<SharedFace> faces;
@@ -299,12 +311,10 @@ class MeshRun {
     if (options_.allQuad) {
       if (const auto error = subdivideAll(prepared, shared, faces)) return *error;
     }
-    if (together) {
-      const auto slid = relaxJoint(mesh_, brep_, prepared, faces, shared, 1.0 / coarsening_, progress_);
-      if (!slid) return slid.error();
-      made.relaxedTogether = true;
-      made.slidNodes = slid.value();
-    }
+    const auto slid = relaxJoint(mesh_, brep_, prepared, faces, held, shared, 1.0 / coarsening_, progress_);
+    if (!slid) return slid.error();
+    made.slidNodes = slid.value();
+    made.heldFaces = std::count(held.begin(), held.end(), 1);
     for (std::size_t f = 0; f < faces.size(); ++f) {
       if (covered_.turned[f] != 0) turnRound(faces[f].mesh);
     }
@@ -335,7 +345,7 @@ class MeshRun {
     result_.faces = std::move(made.faces);
     if (scale_) result_.trace = MeshTrace{*scale_, std::move(made.traces)};
     result_.quality = std::move(made.quality);
-    result_.relaxedTogether = made.relaxedTogether;
+    result_.heldFaces = made.heldFaces;
     result_.slidNodes = made.slidNodes;
     result_.fieldSingularities = 0;
     for (const CrossField& field : prepared.fields) {

@@ -186,7 +186,7 @@ std::string toJson(const MeshResult& result) {
                {"repair", toArray(result.input.repaired.items)},
                {"fieldSingularities", result.fieldSingularities},
                {"refinedPlaces", result.refinedPlaces},
-               {"relaxedTogether", result.relaxedTogether},
+               {"heldFaces", result.heldFaces},
                {"slidNodes", result.slidNodes},
                {"sizeConformity", toValue(result.sizeConformity)}});
 }

@@ -19,6 +19,7 @@ struct JointFace {
   const std::vector<std::int32_t>* node;  ///< Per vertex of the mesh: the node that it shares; kNone inside.
   const Patch* patch = nullptr;
   const TriangleBvh* target = nullptr;  ///< The face's input triangles.
+  bool held = false;                    ///< Stays as it is, with the nodes on its edges.
 };
 
 /// The nodes along one edge of the B-rep.

@@ -96,9 +96,9 @@ struct MeshResult {
   SizeConformity sizeConformity;
   std::vector<double> vertexSize;  ///< Per vertex of the input: the target edge length there.
   std::int64_t refinedPlaces = 0;  ///< Where elements of the size asked for could not follow the part: smaller there.
-  /// Whether the faces' meshes were relaxed together, across their edges; if not, because the mesh would not be valid.
-  bool relaxedTogether = true;
-  std::int64_t slidNodes = 0;  ///< Nodes that this moved along their edges by more than a tenth of the element size.
+  /// Faces that were not relaxed together with the others, across their edges, because they would not be valid then.
+  std::int64_t heldFaces = 0;
+  std::int64_t slidNodes = 0;      ///< Nodes that the others moved along their edges by more than a tenth of the size.
   std::optional<MeshTrace> trace;  ///< If it was asked for.
 };
 

@@ -78,9 +78,9 @@ struct BrepOptions {
 /// Cuts the mesh into faces along sharp, boundary, non-manifold and label edges.
 ///
 /// - An edge is sharp from the feature angle on. Chains of sharp edges that end inside a face are continued down to 0.6
-///   of the angle where that leads to another edge; those shorter than 1.2 % of the body that still end inside a face are
-///   dropped. In a body whose sharp edges end loosely all over (scans, sculpted models) only edges of twice the angle
-///   count, chains and patches must be larger, and zigzag borders have no corners.
+///   of the angle where that leads to another edge; those shorter than 1.2 % of the body that still end inside a face
+///   are dropped. In a body whose sharp edges end loosely all over (scans, sculpted models) only edges of twice the
+///   angle count, chains and patches must be larger, and zigzag borders have no corners.
 /// - Slivers too thin for a reliable normal take that of a neighbour.
 /// - Labels divide when their regions have four triangles or more on average.
 /// - B-rep vertices are where other than two edges meet, where kinds change, where an edge or a face turns by more than
