@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <utility>
 
-#include "qmcf/spatial/triangle_bvh.hpp"
+#include "qmcf/spatial/surface_tree.hpp"
 
 namespace qmcf {
 namespace {
@@ -16,17 +16,6 @@ constexpr double kSpacing = 0.25;  // Of the places looked at, in units of the b
 constexpr double kDistance = 0.5;  // In units of the local size.
 constexpr double kLowest = 0.3;
 constexpr double kMinCosine = 0.3;
-
-TriangleBvh treeOf(const Surface& surface) {
-  std::vector<Vec3> positions;
-  std::vector<std::array<std::int32_t, 3>> triangles;
-  for (const VertexId v : surface.vertices()) positions.push_back(surface.position(v));
-  for (const TriangleId t : surface.triangles()) {
-    const auto corners = surface.corners(t);
-    triangles.push_back({corners[0].value, corners[1].value, corners[2].value});
-  }
-  return {positions, triangles};
-}
 
 /// One vertex from each cube of a grid, those with the smallest ids, ascending.
 std::vector<VertexId> spacedVertices(const Surface& surface, double width) {
@@ -53,7 +42,7 @@ std::vector<SizeLimit> findMissedPlaces(const Surface& face, const FaceReference
                                         double base) {
   std::vector<SizeLimit> missed;
   if (reference.isPlanar()) return missed;
-  const TriangleBvh tree = treeOf(patch.surface);
+  const TriangleBvh tree = surfaceTree(patch.surface);
   for (const VertexId v : spacedVertices(face, kSpacing * base)) {
     const Vec3& p = face.position(v);
     const ClosestPoint near = tree.closest(p, reference.vertexNormal(v.value), kMinCosine);

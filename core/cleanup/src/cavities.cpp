@@ -1,5 +1,5 @@
 // Cavity remeshing, after Verma and Suresh 2017: a region around irregular vertices grows until its outline is convex
-// and is then filled with a pattern of at most one irregular vertex.
+// and is then filled with a pattern of at most two irregular vertices.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -46,18 +46,21 @@ double meanShape(const EditMesh& mesh, const std::vector<FaceId>& faces) {
   return sum / static_cast<double>(faces.size());
 }
 
-/// Sum over the quadrilaterals of how much longer one pair of sides is than the other: the ratio less 1.
+/// How much longer one pair of sides of a quadrilateral is than the other: the ratio less 1.
+double stretch(const Vec3& p0, const Vec3& p1, const Vec3& p2, const Vec3& p3) {
+  const double a = distance(p0, p1) + distance(p2, p3);
+  const double b = distance(p1, p2) + distance(p3, p0);
+  return std::max(a, b) / std::min(a, b) - 1.0;
+}
+
+/// Sum of stretch() over the quadrilaterals.
 double stretchOf(const EditMesh& mesh, const std::vector<FaceId>& faces) {
   double sum = 0.0;
   for (const FaceId f : faces) {
     const auto sides = mesh.sides(f);
     if (!sides[3].valid()) continue;
-    const auto length = [&](std::size_t i) {
-      return distance(mesh.position(mesh.origin(sides[i])), mesh.position(mesh.target(sides[i])));
-    };
-    const double a = length(0) + length(2);
-    const double b = length(1) + length(3);
-    sum += std::max(a, b) / std::min(a, b) - 1.0;
+    const auto p = [&](std::size_t i) -> const Vec3& { return mesh.position(mesh.origin(sides[i])); };
+    sum += stretch(p(0), p(1), p(2), p(3));
   }
   return sum;
 }
@@ -73,9 +76,7 @@ Promise promiseOf(const SidePattern& pattern, std::vector<Vec3> positions) {
   Promise promise;
   for (const auto& cell : pattern.cells) {
     const auto p = [&](std::size_t i) -> const Vec3& { return positions[static_cast<std::size_t>(cell[i % 4])]; };
-    const double a = distance(p(0), p(1)) + distance(p(2), p(3));
-    const double b = distance(p(1), p(2)) + distance(p(3), p(0));
-    promise.stretch += std::max(a, b) / std::min(a, b) - 1.0;
+    promise.stretch += stretch(p(0), p(1), p(2), p(3));
     const Vec3 normal = normalized(cross(p(2) - p(0), p(3) - p(1)));
     double shape = 1.0;
     for (std::size_t i = 0; i < 4; ++i) {

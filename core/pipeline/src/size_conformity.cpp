@@ -7,7 +7,7 @@
 #include <cstdint>
 
 #include "qmcf/base/math.hpp"
-#include "qmcf/spatial/triangle_bvh.hpp"
+#include "qmcf/spatial/surface_tree.hpp"
 
 namespace qmcf {
 namespace {
@@ -43,7 +43,7 @@ std::vector<MeasuredEdge> edgesOf(const QuadMesh& mesh) {
 /// The size of a patch at the point of it that is closest.
 class PatchSizes {
  public:
-  explicit PatchSizes(const Patch& patch) : patch_(patch), tree_(treeOf(patch.surface)) {}
+  explicit PatchSizes(const Patch& patch) : patch_(patch), tree_(surfaceTree(patch.surface)) {}
 
   [[nodiscard]] double at(const Vec3& p) const {
     const ClosestPoint near = tree_.closest(p);
@@ -54,17 +54,6 @@ class PatchSizes {
   }
 
  private:
-  static TriangleBvh treeOf(const Surface& surface) {
-    std::vector<Vec3> positions;
-    std::vector<std::array<std::int32_t, 3>> triangles;
-    for (const VertexId v : surface.vertices()) positions.push_back(surface.position(v));
-    for (const TriangleId t : surface.triangles()) {
-      const auto corners = surface.corners(t);
-      triangles.push_back({corners[0].value, corners[1].value, corners[2].value});
-    }
-    return {positions, triangles};
-  }
-
   const Patch& patch_;
   TriangleBvh tree_;
 };

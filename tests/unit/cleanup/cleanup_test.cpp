@@ -8,13 +8,14 @@
 #include "field/patches.hpp"
 #include "qmcf/base/random.hpp"
 #include "qmcf/cleanup/subdivide.hpp"
+#include "qmcf/spatial/surface_tree.hpp"
 
 namespace qmcf {
 namespace {
 
 CleanupResult clean(const FaceMesh& mesh, const Patch& patch, const CleanupOptions& options = {}) {
   SilentProgress silent;
-  auto result = cleanUp(mesh, patch, testing::treeOf(patch), options, silent);
+  auto result = cleanUp(mesh, patch, surfaceTree(patch.surface), options, silent);
   EXPECT_TRUE(result.ok());
   return std::move(result).value();
 }
@@ -98,7 +99,7 @@ TEST(Subdivide, CutsQuadrilateralsInFourAndTrianglesInThree) {
     middle[h] =
         (patch.surface.position(patch.surface.origin(h)) + patch.surface.position(patch.surface.target(h))) * 0.5;
   }
-  const SubdividedFace cut = subdivide(mesh, patch, testing::treeOf(patch), middle);
+  const SubdividedFace cut = subdivide(mesh, patch, surfaceTree(patch.surface), middle);
   ASSERT_EQ(cut.mesh.elements.size(), 15U * 4U + 2U * 3U);
   for (const Element& element : cut.mesh.elements) EXPECT_EQ(cornerCount(element), 4U);
   // Euler: vertices - edges + elements = 1, and every edge has been halved.

@@ -1,26 +1,12 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <vector>
 
 #include "qmcf/mesh/face_mesh.hpp"
 #include "qmcf/mesh/patch.hpp"
-#include "qmcf/spatial/triangle_bvh.hpp"
 
 namespace qmcf::testing {
-
-/// Over the patch's triangles.
-inline TriangleBvh treeOf(const Patch& patch) {
-  std::vector<Vec3> positions;
-  std::vector<std::array<std::int32_t, 3>> triangles;
-  for (const VertexId v : patch.surface.vertices()) positions.push_back(patch.surface.position(v));
-  for (const TriangleId t : patch.surface.triangles()) {
-    const auto c = patch.surface.corners(t);
-    triangles.push_back({c[0].value, c[1].value, c[2].value});
-  }
-  return TriangleBvh(positions, triangles);
-}
 
 /// The cells x cells grid of quads of a square patch.
 inline FaceMesh gridMesh(const Patch& patch, int cells) {

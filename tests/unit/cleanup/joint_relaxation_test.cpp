@@ -8,6 +8,7 @@
 
 #include "cleanup/grid_mesh.hpp"
 #include "field/patches.hpp"
+#include "qmcf/spatial/surface_tree.hpp"
 
 namespace qmcf {
 namespace {
@@ -17,7 +18,8 @@ constexpr int kCells = 6;
 /// The unit square as one face: its grid, four edges, and a node at each vertex of the boundary.
 class Square {
  public:
-  Square() : patch(testing::makeSquare(kCells)), tree(testing::treeOf(patch)), mesh(testing::gridMesh(patch, kCells)) {
+  Square()
+      : patch(testing::makeSquare(kCells)), tree(surfaceTree(patch.surface)), mesh(testing::gridMesh(patch, kCells)) {
     for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
       nodes.push_back(mesh.positions[v]);
       node.push_back(mesh.patchVertex[v] == kNone ? kNone : static_cast<std::int32_t>(v));
@@ -130,7 +132,7 @@ TEST(RelaxTogether, TurnsTheNodesOfAClosedEdgeWithTheVertexThatClosesIt) {
     return Vec3{radius * std::cos(-angle), radius * std::sin(-angle), 0.0};
   };
   const Patch patch = testing::makeGrid(grid, 0.25);
-  const TriangleBvh tree = testing::treeOf(patch);
+  const TriangleBvh tree = surfaceTree(patch.surface);
   FaceMesh mesh;
   std::vector<std::int32_t> node;
   std::vector<Vec3> nodes;

@@ -6,6 +6,7 @@
 
 #include "field/patches.hpp"
 #include "front/face_mesh_checks.hpp"
+#include "qmcf/spatial/surface_tree.hpp"
 
 namespace qmcf {
 namespace {
@@ -13,20 +14,9 @@ namespace {
 using testing::expectValid;
 using testing::withSize;
 
-TriangleBvh treeOf(const Surface& surface) {
-  std::vector<Vec3> positions;
-  std::vector<std::array<std::int32_t, 3>> triangles;
-  for (const VertexId v : surface.vertices()) positions.push_back(surface.position(v));
-  for (const TriangleId t : surface.triangles()) {
-    const auto c = surface.corners(t);
-    triangles.push_back({c[0].value, c[1].value, c[2].value});
-  }
-  return TriangleBvh(positions, triangles);
-}
-
 MorphResult mesh(const Patch& patch) {
   SilentProgress silent;
-  auto result = advanceMorph(patch, treeOf(patch.surface), MorphOptions{}, silent);
+  auto result = advanceMorph(patch, surfaceTree(patch.surface), MorphOptions{}, silent);
   EXPECT_TRUE(result.ok());
   return std::move(result).value();
 }
@@ -131,7 +121,7 @@ TEST(QMorph, StaysOnCurvedAndClosedSurfaces) {
     const MorphResult result = mesh(patch);
     expectValid(result.mesh, patch);
     EXPECT_GE(20 * result.statistics.quads, 19 * (result.statistics.quads + result.statistics.triangles));
-    const TriangleBvh tree = treeOf(patch.surface);
+    const TriangleBvh tree = surfaceTree(patch.surface);
     for (const Vec3& p : result.mesh.positions) EXPECT_LT(tree.closest(p).squaredDistance, 1e-20);
   }
 }
@@ -139,7 +129,7 @@ TEST(QMorph, StaysOnCurvedAndClosedSurfaces) {
 TEST(QMorph, PutsNodesOnThePartAndNotOnItsTriangulation) {
   // The part is a finer sphere than the patch; both have the patch's vertices.
   const Patch patch = testing::makeSphere(8);
-  const TriangleBvh part = treeOf(testing::makeSphere(32).surface);
+  const TriangleBvh part = surfaceTree(testing::makeSphere(32).surface);
   SilentProgress silent;
   const auto result = advanceMorph(patch, part, MorphOptions{}, silent);
   ASSERT_TRUE(result.ok());
@@ -180,7 +170,7 @@ TEST(QMorph, StopsWhenAsked) {
   };
   Stop stop;
   const Patch patch = testing::makeSquare(6);
-  const auto result = advanceMorph(patch, treeOf(patch.surface), MorphOptions{}, stop);
+  const auto result = advanceMorph(patch, surfaceTree(patch.surface), MorphOptions{}, stop);
   ASSERT_FALSE(result.ok());
   EXPECT_EQ(result.error().code, ErrorCode::cancelled);
 }

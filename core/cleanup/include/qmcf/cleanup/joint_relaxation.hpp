@@ -15,8 +15,8 @@ namespace qmcf {
 
 /// The mesh of one face, to be relaxed together with its neighbours.
 struct JointFace {
-  FaceMesh* mesh = nullptr;               ///< In and out; without elements it takes no part.
-  const std::vector<std::int32_t>* node;  ///< Per vertex of the mesh: the node that it shares; kNone inside.
+  FaceMesh* mesh = nullptr;                         ///< In and out; without elements it takes no part.
+  const std::vector<std::int32_t>* node = nullptr;  ///< Per vertex of the mesh: the node that it shares; kNone inside.
   const Patch* patch = nullptr;
   const TriangleBvh* target = nullptr;  ///< The face's input triangles.
   bool held = false;                    ///< Stays as it is, with the nodes on its edges.
@@ -38,7 +38,8 @@ struct JointRelaxationOptions {
 
 /// Relaxes the meshes of all faces together: nodes slide along their edges to where the elements of all faces around
 /// want them, and the vertices near them follow on their faces. No element becomes worse than it was and than
-/// relax() tolerates; no chord departs further from its edge than before or than a twentieth of the element size.
+/// relax() tolerates; no chord departs further from its edge than before or than a twentieth of the element size; no
+/// division becomes shorter than half of what it was.
 /// nodes: positions of the shared nodes, in and out. Returns how many nodes moved by more than a tenth of the element
 /// size. Errors: cancelled.
 Result<std::int64_t> relaxTogether(std::vector<JointFace>& faces, const std::vector<JointEdge>& edges,
