@@ -33,10 +33,10 @@ constexpr int kMaxHolds = 3;
 /// How often faces are made of the part's own triangles before a mesh is given up.
 constexpr int kMaxGivenRounds = 5;
 constexpr std::size_t kMostGiven = 10000;  ///< Triangles of such a face, besides twice the elements.
-/// How often the number of elements asked of the size field is corrected by what the front made of it.
+/// How often the number of elements asked of the size field is corrected by what the front made of it: large numbers,
+/// which come out nearer by themselves, once.
 constexpr int kMaxCorrections = 2;
-/// A large number of elements is corrected once, by what the front makes when asked for this many.
-constexpr std::int64_t kMostTried = 10'000;
+constexpr std::int64_t kManyElements = 10'000;
 /// Two faces between the same edges that are nearer to each other than this, in units of the base, get one mesh.
 constexpr double kTellApart = 0.25;
 
@@ -95,7 +95,8 @@ class MeshRun {
     if (!preparation) return preparation.error();
     PreparedFaces prepared = std::move(preparation).value();
     const double base = prepared.size.base;
-    result_.size = base / coarsening_;
+    if (!options_.quads) askedBase_ = base;
+    result_.size = askedBase_ / coarsening_;
     std::size_t fewest = 0;
     double mostElements = 0.0;
     for (int round = 0;; ++round) {
@@ -111,7 +112,7 @@ class MeshRun {
       const std::size_t faults = limits.size() + (missing.empty() ? 0 : 1);
       if (round == 0 || faults < fewest) {
         fewest = faults;
-        keep(std::move(attempted).value(), prepared);
+        if (const auto error = keep(std::move(attempted).value(), prepared)) return *error;
       }
       limits.insert(limits.end(), missing.begin(), missing.end());
       limits = notBelow(limits, kLowestSize * base);
@@ -153,7 +154,7 @@ class MeshRun {
       if (!made) return made.error();
       atFault = facesAtFault(made.value().mesh, made.value().quality, brep_);
       if (countFaults(made.value().quality) < countFaults(result_.quality)) {
-        keep(std::move(made).value(), prepared.value());
+        if (const auto error = keep(std::move(made).value(), prepared.value())) return error;
       }
       if (result_.quality.valid) break;
     }
@@ -201,15 +202,15 @@ class MeshRun {
   /// As prepare(), with sizes such that there are about `wanted` elements in the end.
   Result<PreparedFaces> prepareForCount(std::int64_t wanted) {
     MeshOptions options = options_;
-    options.quads = std::min(wanted, kMostTried);
+    options.quads = wanted;
     auto best = prepare(options);
     if (!best) return best;
-    CountTrial tried{*options.quads, elementCount()};
+    askedBase_ = best.value().size.base;
+    CountTrial tried{wanted, elementCount()};
     options.quads = correctedCount(tried, wanted);
-    if (options.quads == tried.asked) return best;
-    if (wanted > kMostTried) return prepare(options);
     const auto miss = [wanted](double made) { return std::fabs(made - static_cast<double>(wanted)); };
-    for (int i = 0; i < kMaxCorrections && options.quads != tried.asked; ++i) {
+    const int most = wanted > kManyElements ? 1 : kMaxCorrections;
+    for (int i = 0; i < most && options.quads != tried.asked; ++i) {
       CoveredFaces covered = covered_;
       std::vector<MeshedFace> faces = std::move(faces_);
       const std::ptrdiff_t fallbacksBefore = fallbacks(faces);
@@ -325,7 +326,7 @@ class MeshRun {
     return limits;
   }
 
-  void keep(Attempt made, const PreparedFaces& prepared) {
+  std::optional<Error> keep(Attempt made, const PreparedFaces& prepared) {
     result_.mesh = std::move(made.mesh);
     result_.faces = std::move(made.faces);
     if (scale_) result_.trace = MeshTrace{*scale_, std::move(made.traces)};
@@ -338,8 +339,18 @@ class MeshRun {
     }
     result_.refinedPlaces = static_cast<std::int64_t>(prepared.size.limits.size());
     sizes_ = {prepared.size.base, prepared.size.limits, prepared.minimumDivisions, prepared.size.chordSize};
-    result_.sizeConformity = sizeConformity(result_.mesh, prepared, coarsening_);
-    result_.vertexSize = sizesAt(inputPositions_, mesh_, prepared.size, coarsening_);
+    // Where the count was corrected, the sizes used are not those that were asked for.
+    std::optional<SizeField> asked;
+    if (askedBase_ != prepared.size.base) {
+      PreparedSizes sizes = sizes_;
+      sizes.base = askedBase_;
+      auto field = sizeField(mesh_, brep_, options_, sizes, progress_);
+      if (!field) return field.error();
+      asked = std::move(field).value();
+    }
+    result_.sizeConformity = sizeConformity(result_.mesh, mesh_, prepared, asked ? &*asked : nullptr, coarsening_);
+    result_.vertexSize = sizesAt(inputPositions_, mesh_, asked ? *asked : prepared.size, coarsening_);
+    return std::nullopt;
   }
 
   MeshResult result_;
@@ -352,7 +363,8 @@ class MeshRun {
   std::optional<TraceScale> scale_;  ///< Of the trace, if one is asked for.
   CoveredFaces covered_;
   std::vector<MeshedFace> faces_;
-  PreparedSizes sizes_;  ///< Of the mesh that is kept.
+  PreparedSizes sizes_;     ///< Of the mesh that is kept.
+  double askedBase_ = 0.0;  ///< The base size for the number of elements wanted, before that was corrected.
 };
 
 }  // namespace

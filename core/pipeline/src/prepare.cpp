@@ -31,22 +31,39 @@ FieldOptions fieldOptions(const MeshOptions& options) {
   return field;
 }
 
+SizingOptions sizingOptions(const MeshOptions& options) {
+  SizingOptions sizing;
+  sizing.size = options.size;
+  sizing.quads = options.quads;
+  sizing.gradation = options.gradation;
+  sizing.divisionsPerTurn = kDivisionsPerTurn;
+  if (options.allQuad) {
+    // Each element will be cut at the middles of its edges.
+    if (sizing.size) *sizing.size *= 2.0;
+    if (sizing.quads) *sizing.quads = std::max<std::int64_t>(1, *sizing.quads / 4);
+    sizing.divisionsPerTurn = kDivisionsPerTurn / 2;
+  }
+  return sizing;
+}
+
+void useSizes(SizingOptions& sizing, const PreparedSizes& sizes) {
+  sizing.size = sizes.base;
+  sizing.quads.reset();
+  sizing.limits = sizes.limits;
+  sizing.chordSize = sizes.chordSize;
+}
+
 /// The stages up to the cross fields, as often as the faces ask for smaller elements.
 class Preparation {
  public:
   Preparation(const TriangleMesh& mesh, const Brep& brep, const MeshOptions& options, PreparedFaces before,
               Progress& progress)
-      : mesh_(mesh), brep_(brep), options_(options), result_(std::move(before)), progress_(progress) {
-    sizing_.size = options.size;
-    sizing_.quads = options.quads;
-    sizing_.gradation = options.gradation;
-    sizing_.divisionsPerTurn = kDivisionsPerTurn;
-    if (options.allQuad) {
-      // Each element will be cut at the middles of its edges.
-      if (sizing_.size) *sizing_.size *= 2.0;
-      if (sizing_.quads) *sizing_.quads = std::max<std::int64_t>(1, *sizing_.quads / 4);
-      sizing_.divisionsPerTurn = kDivisionsPerTurn / 2;
-    }
+      : mesh_(mesh),
+        brep_(brep),
+        options_(options),
+        result_(std::move(before)),
+        progress_(progress),
+        sizing_(sizingOptions(options)) {
     if (options.mode == Mode::qmorph) background_.relativeSize = kMorphTriangleSize;
     minimum_.assign(brep.edges.size(), 1);
     done_.assign(brep.faces.size(), !result_.patches.empty());
@@ -71,20 +88,13 @@ class Preparation {
 
   /// As keepBaseSize(), with what another preparation had.
   void keepSizes(const PreparedSizes& sizes) {
-    sizing_.size = sizes.base;
-    sizing_.quads.reset();
-    sizing_.limits = sizes.limits;
+    useSizes(sizing_, sizes);
     minimum_ = sizes.minimumDivisions;
-    sizing_.chordSize = sizes.chordSize;
   }
 
   /// From now on the base size is what it was, whatever number of elements that makes.
   void keepBaseSize() {
-    sizing_.size = result_.size.base;
-    sizing_.quads.reset();
-    sizing_.limits = result_.size.limits;
-    sizing_.chordSize = result_.size.chordSize;
-    minimum_ = result_.minimumDivisions;
+    keepSizes({result_.size.base, result_.size.limits, result_.minimumDivisions, result_.size.chordSize});
   }
 
   Result<PreparedFaces> run(const std::vector<SizeLimit>& limits) {
@@ -275,6 +285,13 @@ Result<PreparedFaces> prepareGiven(const TriangleMesh& mesh, const Brep& brep, c
   preparation.keepSizes(before);
   preparation.give(given);
   return preparation.run({});
+}
+
+Result<SizeField> sizeField(const TriangleMesh& mesh, const Brep& brep, const MeshOptions& options,
+                            const PreparedSizes& sizes, Progress& progress) {
+  SizingOptions sizing = sizingOptions(options);
+  useSizes(sizing, sizes);
+  return computeSizeField(mesh, brep, sizing, progress);
 }
 
 }  // namespace qmcf

@@ -51,4 +51,8 @@ Result<PreparedFaces> refineFaces(const TriangleMesh& mesh, const Brep& brep, co
 Result<PreparedFaces> prepareGiven(const TriangleMesh& mesh, const Brep& brep, const MeshOptions& options,
                                    const PreparedSizes& before, const std::vector<Given>& given, Progress& progress);
 
+/// The size field with these sizes. Errors: cancelled.
+Result<SizeField> sizeField(const TriangleMesh& mesh, const Brep& brep, const MeshOptions& options,
+                            const PreparedSizes& sizes, Progress& progress);
+
 }  // namespace qmcf

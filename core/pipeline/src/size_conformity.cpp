@@ -58,30 +58,55 @@ class PatchSizes {
   TriangleBvh tree_;
 };
 
+std::vector<Vec3> middlesOf(const QuadMesh& mesh, const std::vector<MeasuredEdge>& edges) {
+  std::vector<Vec3> middles;
+  middles.reserve(edges.size());
+  for (const MeasuredEdge& edge : edges) {
+    const auto end = [&](std::size_t i) -> const Vec3& {
+      return mesh.positions[static_cast<std::size_t>(edge.ends[i])];
+    };
+    middles.push_back((end(0) + end(1)) * 0.5);
+  }
+  return middles;
+}
+
+/// One field in units of another at each point.
+std::vector<double> ratios(const std::vector<Vec3>& points, const TriangleMesh& repaired, const SizeField& field,
+                           const SizeField& unit) {
+  std::vector<double> result = sizesAt(points, repaired, field, 1.0);
+  const std::vector<double> units = sizesAt(points, repaired, unit, 1.0);
+  for (std::size_t i = 0; i < result.size(); ++i) result[i] /= units[i];
+  return result;
+}
+
 }  // namespace
 
-SizeConformity sizeConformity(const QuadMesh& mesh, const PreparedFaces& prepared, double coarsening) {
+SizeConformity sizeConformity(const QuadMesh& mesh, const TriangleMesh& repaired, const PreparedFaces& prepared,
+                              const SizeField* asked, double coarsening) {
   const std::vector<MeasuredEdge> edges = edgesOf(mesh);
-  std::vector<double> ratios;
+  const std::vector<double> change =
+      asked == nullptr ? std::vector<double>{} : ratios(middlesOf(mesh, edges), repaired, *asked, prepared.size);
+  std::vector<double> lengths;
   for (std::size_t i = 0; i < edges.size();) {
     const std::int32_t face = edges[i].face;
     const PatchSizes sizes(prepared.patches[static_cast<std::size_t>(face)]);
     for (; i < edges.size() && edges[i].face == face; ++i) {
       const Vec3& a = mesh.positions[static_cast<std::size_t>(edges[i].ends[0])];
       const Vec3& b = mesh.positions[static_cast<std::size_t>(edges[i].ends[1])];
-      ratios.push_back(distance(a, b) * coarsening / sizes.at((a + b) * 0.5));
+      const double size = sizes.at((a + b) * 0.5) * (change.empty() ? 1.0 : change[i]);
+      lengths.push_back(distance(a, b) * coarsening / size);
     }
   }
   SizeConformity result;
-  if (ratios.empty()) return result;
-  std::sort(ratios.begin(), ratios.end());
-  const auto count = static_cast<double>(ratios.size());
+  if (lengths.empty()) return result;
+  std::sort(lengths.begin(), lengths.end());
+  const auto count = static_cast<double>(lengths.size());
   constexpr double kSqrt2 = 1.4142135623730951;
-  for (const double ratio : ratios) {
-    result.meanAbsLog2 += std::fabs(math::log2(ratio)) / count;
-    result.withinSqrt2 += ratio * kSqrt2 >= 1.0 && ratio <= kSqrt2 ? 1.0 / count : 0.0;
+  for (const double length : lengths) {
+    result.meanAbsLog2 += std::fabs(math::log2(length)) / count;
+    result.withinSqrt2 += length * kSqrt2 >= 1.0 && length <= kSqrt2 ? 1.0 / count : 0.0;
   }
-  const auto percentile = [&](double share) { return ratios[static_cast<std::size_t>(share * (count - 1.0))]; };
+  const auto percentile = [&](double share) { return lengths[static_cast<std::size_t>(share * (count - 1.0))]; };
   result.p5 = percentile(0.05);
   result.median = percentile(0.5);
   result.p95 = percentile(0.95);

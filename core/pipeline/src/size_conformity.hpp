@@ -10,8 +10,10 @@
 namespace qmcf {
 
 /// The edges of `mesh` against the sizes of the faces' patches, divided by `coarsening`. An edge between two faces is
-/// measured once, in the first element that has it.
-SizeConformity sizeConformity(const QuadMesh& mesh, const PreparedFaces& prepared, double coarsening);
+/// measured once, in the first element that has it. asked: the sizes to measure by where the patches were made with
+/// others, or null; `repaired` is what both fields are of.
+SizeConformity sizeConformity(const QuadMesh& mesh, const TriangleMesh& repaired, const PreparedFaces& prepared,
+                              const SizeField* asked, double coarsening);
 
 /// The target length at each vertex of the input, divided by `coarsening`: the field's value at the closest point of
 /// the repaired mesh, linear in its triangles. Empty triangles: \pre repaired has at least one.

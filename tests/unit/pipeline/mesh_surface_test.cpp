@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <functional>
 #include <optional>
 #include <utility>
@@ -133,6 +134,25 @@ TriangleMesh spikedPlate() {
     const double r = std::min(1.0, distance(p, {0.47, 0.53, 0.0}) / 0.1);
     return Vec3{p.x, p.y, 0.15 * (1.0 + math::cos(math::kPi * r))};
   });
+}
+
+TEST(MeshSurface, MeasuresSizesByTheNumberAskedFor) {
+  // A sphere takes fewer elements than its size field wants, so the front gets a smaller size to make up for that.
+  const TriangleMesh sphere = shapes::moved(shapes::cubeSoup(16), [](const Vec3& p) {
+    return normalized(p - Vec3{0.5, 0.5, 0.5});
+  });
+  double area = 0.0;
+  for (const auto& t : sphere.triangles) {
+    const auto corner = [&](std::size_t i) { return sphere.positions[static_cast<std::size_t>(t[i])]; };
+    area += 0.5 * norm(cross(corner(1) - corner(0), corner(2) - corner(0)));
+  }
+  const MeshResult result = mesh(sphere, 1500);
+  expectGood(result);
+  EXPECT_NEAR(static_cast<double>(result.quality.quads), 1500.0, 75.0);
+  const double asked = std::sqrt(area / 1500.0);
+  EXPECT_NEAR(result.size, asked, 1e-9 * asked);
+  for (const double size : result.vertexSize) EXPECT_NEAR(size, asked, 1e-9 * asked);
+  EXPECT_NEAR(result.sizeConformity.median, 1.0, 0.06);
 }
 
 TEST(MeshSurface, PutsSmallerElementsWhereLargeOnesCanNotFollow) {

@@ -70,7 +70,8 @@ struct FieldResult {
   std::vector<CrossField> fields;  ///< One per patch.
 };
 
-/// The lengths of a mesh's edges in units of the target at their midpoints: the size field that the run worked with.
+/// The lengths of a mesh's edges in units of the target at their midpoints: the size field for the size or number of
+/// elements asked for.
 struct SizeConformity {
   double meanAbsLog2 = 0.0;  ///< Mean |log2(length / target)|; 0 is perfect.
   double p5 = 0.0;           ///< 5 % of the edges are shorter, in units of the target.
