@@ -179,9 +179,10 @@ bool TopologicalCleanup::fillCavity(const std::vector<HalfedgeId>& loop, const s
   if (const auto pattern = fillSides(outline, corners))
     return fillWith(*pattern, loop, energy - (corners.size() == 4 ? 0 : 1));
   if (energy <= kTwoEnergy) return false;
-  const std::vector<SidePattern> patterns = fillSidesByTwo(outline, corners, kMostTries);
-  return std::any_of(patterns.begin(), patterns.end(),
-                     [&](const SidePattern& pattern) { return fillWith(pattern, loop, energy - kTwoEnergy); });
+  const std::vector<SideCut> cuts = cutsInTwo(outline, corners, kMostTries);
+  return std::any_of(cuts.begin(), cuts.end(), [&](const SideCut& cut) {
+    return fillWith(fillCut(outline, corners, cut), loop, energy - kTwoEnergy);
+  });
 }
 
 bool TopologicalCleanup::fillWith(const SidePattern& pattern, const std::vector<HalfedgeId>& loop, int drop) {

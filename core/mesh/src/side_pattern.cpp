@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <utility>
 
 #include "qmcf/base/math.hpp"
@@ -64,29 +65,52 @@ SidePattern gridPattern(const std::vector<Vec3>& loop, const std::vector<int>& c
   return pattern;
 }
 
+/// Numbers of edges of the sides of a loop or of its spokes, or the loop's corners: six at most.
+class FewInts {
+ public:
+  FewInts() = default;
+  explicit FewInts(std::size_t size) : size_(size) {}
+  void push_back(int value) { values_[size_++] = value; }
+  [[nodiscard]] std::size_t size() const { return size_; }
+  [[nodiscard]] int back() const { return values_[size_ - 1]; }
+  int& operator[](std::size_t i) { return values_[i]; }
+  int operator[](std::size_t i) const { return values_[i]; }
+
+ private:
+  std::array<int, 6> values_{};
+  std::size_t size_ = 0;
+};
+
+/// Twice the length of spoke i. Side j is as long as spokes j - 1 and j + 1 together; going round in steps of two, all
+/// other spokes cancel.
+int twiceSpoke(const FewInts& sides, std::size_t i) {
+  int sum = 0;
+  int sign = 1;
+  for (std::size_t step = 0; step < sides.size(); ++step) {
+    sum += sign * sides[(i + 1 + 2 * step) % sides.size()];
+    sign = -sign;
+  }
+  return sum;
+}
+
+/// The least that twiceSpoke() may be; lastMayVanish: the middle may lie on the last side.
+int leastTwiceSpoke(const FewInts& sides, std::size_t i, bool lastMayVanish) {
+  return lastMayVanish && i + 1 == sides.size() ? 0 : 2;
+}
+
 /// Spokes run from a split of each side to the middle; spoke i is as long as the end of side i - 1 and the start of
-/// side i + 1, so that the grids at the corners fit. Their lengths, or nothing if one is not a whole number above 0;
-/// `lastMayVanish`: the middle may lie on the last side.
-std::optional<std::vector<int>> spokeLengths(const std::vector<int>& sides, bool lastMayVanish = false) {
-  const std::size_t k = sides.size();
-  std::vector<int> spokes(k);
-  for (std::size_t i = 0; i < k; ++i) {
-    // side j = spoke j-1 + spoke j+1; going round in steps of two, all other spokes cancel.
-    int sum = 0;
-    int sign = 1;
-    for (std::size_t step = 0; step < k; ++step) {
-      sum += sign * sides[(i + 1 + 2 * step) % k];
-      sign = -sign;
-    }
-    const int least = lastMayVanish && i + 1 == k ? 0 : 2;
-    if (sum < least || sum % 2 != 0) return std::nullopt;
+/// side i + 1, so that the grids at the corners fit. Their lengths, or nothing if one is not a whole number above 0.
+std::optional<FewInts> spokeLengths(const FewInts& sides, bool lastMayVanish = false) {
+  FewInts spokes(sides.size());
+  for (std::size_t i = 0; i < sides.size(); ++i) {
+    const int sum = twiceSpoke(sides, i);
+    if (sum < leastTwiceSpoke(sides, i, lastMayVanish) || sum % 2 != 0) return std::nullopt;
     spokes[i] = sum / 2;
   }
   return spokes;
 }
 
-SidePattern spokePattern(const std::vector<Vec3>& loop, const std::vector<int>& corners,
-                         const std::vector<int>& spokes) {
+SidePattern spokePattern(const std::vector<Vec3>& loop, const FewInts& corners, const FewInts& spokes) {
   const auto count = static_cast<int>(loop.size());
   const std::size_t k = corners.size();
   const auto before = [k](std::size_t i) { return (i + k - 1) % k; };
@@ -138,20 +162,19 @@ SidePattern spokePattern(const std::vector<Vec3>& loop, const std::vector<int>& 
   return pattern;
 }
 
-std::vector<int> sideLengths(int count, const std::vector<int>& corners) {
-  std::vector<int> sides;
+FewInts fewOf(const std::vector<int>& values) {
+  FewInts few;
+  for (const int value : values) few.push_back(value);
+  return few;
+}
+
+FewInts sideLengths(int count, const FewInts& corners) {
+  FewInts sides;
   for (std::size_t i = 0; i < corners.size(); ++i) {
     sides.push_back((i + 1 < corners.size() ? corners[i + 1] : corners[0] + count) - corners[i]);
   }
   return sides;
 }
-
-/// A cut through a loop from vertex `from` to vertex `to`, of so many edges.
-struct Cut {
-  int from = 0;
-  int to = 0;
-  int length = 1;
-};
 
 /// A loop with sums over its vertices, and the length that its edges have on average.
 struct Outline {
@@ -168,14 +191,12 @@ struct Outline {
   double edge = 0.0;
 };
 
-/// One part of a loop that was cut in two: from a vertex along the loop to another, and back along the cut.
+/// One part of a loop that is cut in two: from a vertex along the loop to another, and back along the cut. The number of
+/// the cut's edges may be changed.
 class Part {
  public:
-  Part(const Outline& outline, const std::vector<int>& corners, const Cut& cut, bool other)
-      : outline_(outline),
-        begin_(other ? cut.to : cut.from),
-        steps_(((other ? cut.from : cut.to) - begin_ + outline.count()) % outline.count()),
-        cut_(cut.length) {
+  Part(const Outline& outline, const std::vector<int>& corners, int from, int to)
+      : outline_(outline), begin_(from), steps_((to - from + outline.count()) % outline.count()) {
     corners_.push_back(0);
     // The loop's corners that lie between, in the order of the part.
     const auto first = std::upper_bound(corners.begin(), corners.end(), begin_) - corners.begin();
@@ -186,9 +207,12 @@ class Part {
     }
     corners_.push_back(steps_);
   }
+  void setCut(int edges) { cut_ = edges; }
 
   [[nodiscard]] int count() const { return steps_ + cut_; }
-  [[nodiscard]] const std::vector<int>& corners() const { return corners_; }
+  [[nodiscard]] const FewInts& corners() const { return corners_; }
+  /// The last side is the cut.
+  [[nodiscard]] FewInts sides() const { return sideLengths(count(), corners_); }
   /// A vertex of the part's loop: of the whole loop, or past these the inner ones of the cut, counted from its begin.
   [[nodiscard]] int id(int offset, bool other) const {
     if (offset <= steps_) return (begin_ + offset) % outline_.count();
@@ -209,9 +233,31 @@ class Part {
   const Outline& outline_;
   int begin_;
   int steps_;
-  int cut_;
-  std::vector<int> corners_;
+  int cut_ = 0;
+  FewInts corners_;
 };
+
+/// Numbers of edges from the least to the most.
+struct Range {
+  int least = 0;
+  int most = 0;
+};
+
+/// Narrows the numbers of a cut's edges to those with which no spoke of the part is too short.
+void narrow(Range& range, Part& part) {
+  part.setCut(0);
+  const FewInts sides = part.sides();
+  FewInts onlyCut(sides.size());
+  onlyCut[sides.size() - 1] = 1;
+  for (std::size_t i = 0; i < sides.size(); ++i) {
+    const int room = twiceSpoke(sides, i) - leastTwiceSpoke(sides, i, true);
+    if (twiceSpoke(onlyCut, i) > 0) {
+      range.least = std::max(range.least, -room);
+    } else {
+      range.most = std::min(range.most, room);
+    }
+  }
+}
 
 /// How far a line of so many edges is from edges of the length h: the square of the ratio's logarithm.
 double misfit(double length, int edges, double h) {
@@ -219,41 +265,137 @@ double misfit(double length, int edges, double h) {
   return ratio * ratio;
 }
 
-/// How a part can be filled around one vertex.
+/// How a part is filled around one vertex.
 struct Filling {
   double misfit = 0.0;   ///< The sum over the spokes.
   int centreOnCut = -1;  ///< How far along the part's cut the vertex lies; -1 if it lies inside.
 };
 
-/// Nothing if the part can't be filled so.
-std::optional<Filling> fillingOf(const Part& part, double h) {
-  const auto spokes = spokeLengths(sideLengths(part.count(), part.corners()), true);
-  if (!spokes) return std::nullopt;
-  const std::size_t k = part.corners().size();
+/// Nothing if the misfit is at least `most`. \pre the cut is as long as narrow() asks, the part's loop even
+std::optional<Filling> fillingOf(const Part& part, double h, double most) {
+  const FewInts spokes = *spokeLengths(part.sides(), true);
+  const std::size_t k = spokes.size();
   Filling filling;
   Vec3 middle = part.middle();
-  if (spokes->back() == 0) {
-    filling.centreOnCut = (*spokes)[k - 2];
+  if (spokes.back() == 0) {
+    filling.centreOnCut = spokes[k - 2];
     middle = part.position(part.corners().back() + filling.centreOnCut);
   }
   for (std::size_t i = 0; i < k; ++i) {
-    const int split = (part.corners()[i] + (*spokes)[(i + k - 1) % k]) % part.count();
-    if ((*spokes)[i] > 0) filling.misfit += misfit(distance(part.position(split), middle), (*spokes)[i], h);
+    const int split = (part.corners()[i] + spokes[(i + k - 1) % k]) % part.count();
+    if (spokes[i] > 0) filling.misfit += misfit(distance(part.position(split), middle), spokes[i], h);
+    if (filling.misfit >= most) return std::nullopt;
   }
   return filling;
 }
 
-/// Both parts of a cut loop, each filled around one vertex. \pre fillingOf() has a value for both
-SidePattern joinParts(const Outline& outline, const std::vector<int>& corners, const Cut& cut) {
+/// The best of the cuts seen so far, the best first; among equals those seen first.
+class BestCuts {
+ public:
+  explicit BestCuts(std::size_t most) : most_(most) {}
+  /// Cuts with this misfit or more are of no use.
+  [[nodiscard]] double limit() const {
+    return cuts_.size() < most_ ? std::numeric_limits<double>::infinity() : cuts_.back().first;
+  }
+  void add(double misfit, const SideCut& cut) {
+    if (!(misfit < limit())) return;
+    const auto place = std::upper_bound(cuts_.begin(), cuts_.end(), misfit,
+                                        [](double value, const auto& entry) { return value < entry.first; });
+    cuts_.insert(place, {misfit, cut});
+    if (cuts_.size() > most_) cuts_.pop_back();
+  }
+  [[nodiscard]] std::vector<SideCut> take() const {
+    std::vector<SideCut> cuts;
+    cuts.reserve(cuts_.size());
+    for (const auto& [misfit, cut] : cuts_) cuts.push_back(cut);
+    return cuts;
+  }
+
+ private:
+  std::size_t most_;
+  std::vector<std::pair<double, SideCut>> cuts_;
+};
+
+/// Adds the cuts between two vertices of a loop.
+void addCuts(const Outline& outline, const std::vector<int>& corners, int from, int to, BestCuts& best) {
+  constexpr double kLeast = 0.6;  // Edges of a cut, in units of those that would have the loop's mean length.
+  constexpr double kMost = 1.5;
+  const double h = outline.edge;
+  const double length = distance(outline.loop[index(from)], outline.loop[index(to)]);
+  Range range{std::max(1, static_cast<int>(kLeast * length / h)), static_cast<int>(std::ceil(kMost * length / h))};
+  Part first(outline, corners, from, to);
+  Part second(outline, corners, to, from);
+  narrow(range, first);
+  narrow(range, second);
+  // Both parts need loops of even length.
+  if ((first.count() + range.least) % 2 != 0) ++range.least;
+  for (int edges = range.least; edges <= range.most; edges += 2) {
+    // No term of the sum is negative.
+    const double own = misfit(length, edges, h);
+    const double limit = best.limit();
+    if (own >= limit) continue;
+    first.setCut(edges);
+    const auto firstFilling = fillingOf(first, h, limit);
+    if (!firstFilling) continue;
+    second.setCut(edges);
+    const auto secondFilling = fillingOf(second, h, limit);
+    if (!secondFilling) continue;
+    // The parts run along the cut in opposite directions. Both middles in one place are one vertex.
+    const bool onCut = firstFilling->centreOnCut >= 0 && secondFilling->centreOnCut >= 0;
+    if (onCut && firstFilling->centreOnCut + secondFilling->centreOnCut == edges) continue;
+    best.add(firstFilling->misfit + secondFilling->misfit + own, {from, to, edges});
+  }
+}
+
+}  // namespace
+
+std::optional<SidePattern> fillSides(const std::vector<Vec3>& loop, const std::vector<int>& corners) {
+  const std::size_t k = corners.size();
+  if (k < 3 || k > 5) return std::nullopt;
+  const FewInts starts = fewOf(corners);
+  const FewInts sides = sideLengths(static_cast<int>(loop.size()), starts);
+  if (k == 4) {
+    if (sides[0] != sides[2] || sides[1] != sides[3]) return std::nullopt;
+    return gridPattern(loop, corners, sides[0], sides[1]);
+  }
+  const auto spokes = spokeLengths(sides);
+  if (!spokes) return std::nullopt;
+  return spokePattern(loop, starts, *spokes);
+}
+
+std::vector<SideCut> cutsInTwo(const std::vector<Vec3>& loop, const std::vector<int>& corners, std::size_t most) {
+  const std::size_t k = corners.size();
+  if ((k != 2 && k != 4 && k != 6) || loop.size() % 2 != 0) return {};
+  const auto count = static_cast<int>(loop.size());
+  const FewInts sides = sideLengths(count, fewOf(corners));
+  const Outline outline(loop);
+  if (!(outline.edge > 0.0)) return {};
+  // The first part has one corner of two or four, three of six; of the others each cut would be met from both sides.
+  const std::size_t apart = k == 6 ? 3 : 1;
+  const std::size_t starts = k == 4 ? 4 : k / 2;
+  BestCuts best(most);
+  for (std::size_t s = 0; s < starts; ++s) {
+    const std::size_t t = (s + apart) % k;
+    for (int a = 1; a < sides[s]; ++a) {
+      for (int b = 1; b < sides[t]; ++b) {
+        addCuts(outline, corners, (corners[s] + a) % count, (corners[t] + b) % count, best);
+      }
+    }
+  }
+  return best.take();
+}
+
+SidePattern fillCut(const std::vector<Vec3>& loop, const std::vector<int>& corners, const SideCut& cut) {
+  const Outline outline(loop);
+  std::array<Part, 2> parts{Part(outline, corners, cut.from, cut.to), Part(outline, corners, cut.to, cut.from)};
+  for (Part& part : parts) part.setCut(cut.length);
   SidePattern joined;
-  const Part first(outline, corners, cut, false);
-  for (int s = 1; s < cut.length; ++s) joined.inner.push_back(first.position(first.count() - s));
+  for (int s = 1; s < cut.length; ++s) joined.inner.push_back(parts[0].position(parts[0].count() - s));
   for (const bool other : {false, true}) {
-    const Part part(outline, corners, cut, other);
-    std::vector<Vec3> loop;
-    for (int i = 0; i < part.count(); ++i) loop.push_back(part.position(i));
-    const SidePattern filled =
-        spokePattern(loop, part.corners(), *spokeLengths(sideLengths(part.count(), part.corners()), true));
+    const Part& part = parts[other ? 1 : 0];
+    std::vector<Vec3> own;
+    for (int i = 0; i < part.count(); ++i) own.push_back(part.position(i));
+    const SidePattern filled = spokePattern(own, part.corners(), *spokeLengths(part.sides(), true));
     const int firstInner = outline.count() + static_cast<int>(joined.inner.size());
     for (std::array<int, 4> cell : filled.cells) {
       for (int& id : cell) id = id < part.count() ? part.id(id, other) : firstInner + id - part.count();
@@ -262,65 +404,6 @@ SidePattern joinParts(const Outline& outline, const std::vector<int>& corners, c
     joined.inner.insert(joined.inner.end(), filled.inner.begin(), filled.inner.end());
   }
   return joined;
-}
-
-}  // namespace
-
-std::optional<SidePattern> fillSides(const std::vector<Vec3>& loop, const std::vector<int>& corners) {
-  const std::size_t k = corners.size();
-  if (k < 3 || k > 5) return std::nullopt;
-  const std::vector<int> sides = sideLengths(static_cast<int>(loop.size()), corners);
-  if (k == 4) {
-    if (sides[0] != sides[2] || sides[1] != sides[3]) return std::nullopt;
-    return gridPattern(loop, corners, sides[0], sides[1]);
-  }
-  const auto spokes = spokeLengths(sides);
-  if (!spokes) return std::nullopt;
-  return spokePattern(loop, corners, *spokes);
-}
-
-std::vector<SidePattern> fillSidesByTwo(const std::vector<Vec3>& loop, const std::vector<int>& corners,
-                                        std::size_t most) {
-  constexpr double kLeast = 0.6;  // Edges of a cut, in units of those that would have the loop's mean length.
-  constexpr double kMost = 1.5;
-  const std::size_t k = corners.size();
-  if (k != 2 && k != 4 && k != 6) return {};
-  const auto count = static_cast<int>(loop.size());
-  const std::vector<int> sides = sideLengths(count, corners);
-  const Outline outline(loop);
-  if (!(outline.edge > 0.0)) return {};
-  // The first part has one corner of two or four, three of six; of the others each cut would be met from both sides.
-  const std::size_t apart = k == 6 ? 3 : 1;
-  const std::size_t starts = k == 4 ? 4 : k / 2;
-  std::vector<std::pair<double, Cut>> cuts;
-  for (std::size_t s = 0; s < starts; ++s) {
-    const std::size_t t = (s + apart) % k;
-    for (int a = 1; a < sides[s]; ++a) {
-      for (int b = 1; b < sides[t]; ++b) {
-        Cut cut{(corners[s] + a) % count, (corners[t] + b) % count, 1};
-        const double length = distance(loop[index(cut.from)], loop[index(cut.to)]);
-        const int longest = static_cast<int>(std::ceil(kMost * length / outline.edge));
-        cut.length = std::max(1, static_cast<int>(kLeast * length / outline.edge));
-        // Both parts need loops of even length.
-        if (((cut.to - cut.from + count) % count + cut.length) % 2 != 0) ++cut.length;
-        for (; cut.length <= longest; cut.length += 2) {
-          const auto first = fillingOf(Part(outline, corners, cut, false), outline.edge);
-          if (!first) continue;
-          const auto second = fillingOf(Part(outline, corners, cut, true), outline.edge);
-          if (!second) continue;
-          // The parts run along the cut in opposite directions. Both middles in one place are one vertex.
-          const bool onCut = first->centreOnCut >= 0 && second->centreOnCut >= 0;
-          if (onCut && first->centreOnCut + second->centreOnCut == cut.length) continue;
-          cuts.emplace_back(first->misfit + second->misfit + misfit(length, cut.length, outline.edge), cut);
-        }
-      }
-    }
-  }
-  std::stable_sort(cuts.begin(), cuts.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-  std::vector<SidePattern> patterns;
-  for (std::size_t i = 0; i < std::min(most, cuts.size()); ++i)
-    patterns.push_back(joinParts(outline, corners, cuts[i].second));
-  return patterns;
 }
 
 }  // namespace qmcf

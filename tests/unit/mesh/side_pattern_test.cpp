@@ -114,10 +114,10 @@ TEST(SidePattern, RefusesSidesThatDoNotFit) {
 
 void expectTwo(const std::vector<Vec3>& loop, const std::vector<int>& corners, const std::vector<int>& valences) {
   constexpr std::size_t kMost = 5;
-  const std::vector<SidePattern> patterns = fillSidesByTwo(loop, corners, kMost);
-  ASSERT_FALSE(patterns.empty());
-  EXPECT_LE(patterns.size(), kMost);
-  for (const SidePattern& pattern : patterns) EXPECT_EQ(expectFills(pattern, loop, corners), valences);
+  const std::vector<SideCut> cuts = cutsInTwo(loop, corners, kMost);
+  ASSERT_FALSE(cuts.empty());
+  EXPECT_LE(cuts.size(), kMost);
+  for (const SideCut& cut : cuts) EXPECT_EQ(expectFills(fillCut(loop, corners, cut), loop, corners), valences);
 }
 
 TEST(SidePattern, FillsFourUnequalSidesWithAThreeAndAFive) {
@@ -148,7 +148,7 @@ TEST(SidePattern, HasNoTwoForOddLoopsAndOtherNumbersOfSides) {
   for (const std::vector<int>& sides :
        std::vector<std::vector<int>>{{5, 5, 5, 6}, {5, 5, 5, 5}, {4, 4, 4}, {4, 4, 4, 4, 4}, {1, 1, 1, 1}}) {
     const auto [loop, corners] = polygon(sides);
-    EXPECT_TRUE(fillSidesByTwo(loop, corners, 5).empty()) << ::testing::PrintToString(sides);
+    EXPECT_TRUE(cutsInTwo(loop, corners, 5).empty()) << ::testing::PrintToString(sides);
   }
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <optional>
 #include <vector>
 
@@ -20,11 +21,20 @@ struct SidePattern {
 /// into the loop, ascending. Nothing when the lengths of the sides do not allow it.
 std::optional<SidePattern> fillSides(const std::vector<Vec3>& loop, const std::vector<int>& corners);
 
-/// Fills such a loop with 2, 4 or 6 corners by cutting it in two from side to side and filling each part around one
+/// A cut through a loop between two of its vertices, of so many edges.
+struct SideCut {
+  int from = 0;
+  int to = 0;
+  int length = 1;
+};
+
+/// Cuts of such a loop with 2, 4 or 6 corners in two, from side to side, after which each part can be filled around one
 /// vertex: two vertices with three quadrilaterals, one with three and one with five, or two with five. Four sides can
-/// be filled so whatever their lengths, if these have an even sum and leave room. The fillings whose lines are nearest
-/// to one length of edge, at most `most` of them, the best first.
-std::vector<SidePattern> fillSidesByTwo(const std::vector<Vec3>& loop, const std::vector<int>& corners,
-                                        std::size_t most);
+/// be filled so whatever their lengths, if these have an even sum and leave room. Those whose lines are nearest to one
+/// length of edge, at most `most` of them, the best first.
+std::vector<SideCut> cutsInTwo(const std::vector<Vec3>& loop, const std::vector<int>& corners, std::size_t most);
+
+/// Fills the loop so. \pre cut is one of cutsInTwo()
+SidePattern fillCut(const std::vector<Vec3>& loop, const std::vector<int>& corners, const SideCut& cut);
 
 }  // namespace qmcf
