@@ -161,7 +161,7 @@ bool TopologicalCleanup::remeshCavity(VertexId seed) {
       if (!grow(blocking)) return false;
       continue;
     }
-    if (fillCavity(*loop, corners)) return true;
+    if (triedCavities_.insert(cavity_.signature()).second && fillCavity(*loop, corners)) return true;
     if (!grow(all)) return false;
   }
   return false;

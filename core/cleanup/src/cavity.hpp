@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "qmcf/base/random.hpp"
 #include "qmcf/mesh/edit_mesh.hpp"
 
 namespace qmcf {
@@ -33,15 +34,20 @@ class Cavity {
   void clear() {
     faces_.clear();
     inside_.clear();
+    signature_ = 0;
   }
   /// Adds a face that is not there yet.
   void add(FaceId f) {
-    if (inside_.insert(f)) faces_.push_back(f);
+    if (!inside_.insert(f)) return;
+    faces_.push_back(f);
+    signature_ += Random(f.index()).next();
   }
   [[nodiscard]] bool contains(FaceId f) const { return inside_.contains(f); }
   [[nodiscard]] std::size_t size() const { return faces_.size(); }
   /// In the order in which they were added.
   [[nodiscard]] const std::vector<FaceId>& faces() const { return faces_; }
+  /// The same for the same faces in any order, and for others in all likelihood another.
+  [[nodiscard]] std::uint64_t signature() const { return signature_; }
   /// The boundary as one loop without repeated vertices, or nothing.
   [[nodiscard]] std::optional<std::vector<HalfedgeId>> boundaryLoop(const EditMesh& mesh);
   /// Elements of the cavity around a vertex.
@@ -49,6 +55,7 @@ class Cavity {
 
  private:
   std::vector<FaceId> faces_;
+  std::uint64_t signature_ = 0;
   IdSet<FaceId> inside_;
   IdSet<VertexId> onLoop_;
 };

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <unordered_set>
 #include <utility>
 #include <vector>
 
@@ -57,6 +58,8 @@ class TopologicalCleanup {
   CleanupStatistics statistics_;
   TraceRecorder* trace_;           ///< nullptr: nobody wants the history.
   Cavity cavity_;                  ///< The region being looked at.
+  /// Signatures of cavities that no pattern was found for. Their faces have other ids once something changes there.
+  std::unordered_set<std::uint64_t> triedCavities_;
   std::vector<VertexId> touched_;  ///< See takeTouched().
 };
 
