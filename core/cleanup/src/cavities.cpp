@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <utility>
 
 #include "cavity.hpp"
@@ -30,9 +31,8 @@ constexpr double kPromisedStretch = 6.5;
 constexpr double kPromisedLoss = 0.2;
 constexpr int kSettleSweeps = 12;
 constexpr int kRoughSweeps = 10;  ///< Of these, on the patch.
-/// What is not near enough after so many sweeps is given up: stretch worth a unit of energy then.
-constexpr int kEarlySweep = 2;
-constexpr double kEarlyStretch = 2.5;
+/// A sweep lowers the stretch by at most this share of what the one before did. What can't get there is given up.
+constexpr double kNextGain = 0.85;
 
 /// How much the number of elements of a cavity may change, and the area that it must keep: what is less bridges a limb.
 constexpr double kCountChange = 0.12;
@@ -40,10 +40,21 @@ constexpr double kAreaKept = 0.95;
 /// Distance from the face, in element sizes, that never matters.
 constexpr double kNear = 0.05;
 
-double meanShape(const EditMesh& mesh, const std::vector<FaceId>& faces) {
-  double sum = 0.0;
-  for (const FaceId f : faces) sum += faceShape(mesh, f);
-  return sum / static_cast<double>(faces.size());
+/// Shapes of faces.
+struct Shapes {
+  double worst = 1.0;
+  double mean = 0.0;
+};
+
+Shapes shapesOf(const EditMesh& mesh, const std::vector<FaceId>& faces) {
+  Shapes shapes;
+  for (const FaceId f : faces) {
+    const double shape = faceShape(mesh, f);
+    shapes.worst = std::min(shapes.worst, shape);
+    shapes.mean += shape;
+  }
+  shapes.mean /= static_cast<double>(faces.size());
+  return shapes;
 }
 
 /// How much longer one pair of sides of a quadrilateral is than the other: the ratio less 1.
@@ -89,27 +100,46 @@ Promise promiseOf(const SidePattern& pattern, std::vector<Vec3> positions) {
   return promise;
 }
 
-/// How well elements cover the face.
-struct Cover {
+double areaOf(const EditMesh& mesh, const std::vector<FaceId>& faces) {
   double area = 0.0;
-  double distance = 0.0;  ///< Of the elements' centres from the face, the largest.
-};
-
-Cover coverOf(const EditMesh& mesh, const TriangleBvh& face, const std::vector<FaceId>& faces) {
-  Cover cover;
-  double largest = 0.0;
   for (const FaceId f : faces) {
     const auto sides = mesh.sides(f);
     // A triangle counts as a quad with its last corner twice.
     const auto p = [&](std::size_t i) -> const Vec3& {
       return mesh.position(mesh.origin(sides[sides[i].valid() ? i : 2]));
     };
-    cover.area += 0.5 * norm(cross(p(2) - p(0), p(3) - p(1)));
-    const Vec3 centre = (p(0) + p(1) + p(2) + (sides[3].valid() ? p(3) : Vec3{})) / (sides[3].valid() ? 4.0 : 3.0);
-    largest = std::max(largest, face.closest(centre).squaredDistance);
+    area += 0.5 * norm(cross(p(2) - p(0), p(3) - p(1)));
   }
-  cover.distance = std::sqrt(largest);
-  return cover;
+  return area;
+}
+
+std::vector<Vec3> centresOf(const EditMesh& mesh, const std::vector<FaceId>& faces) {
+  std::vector<Vec3> centres;
+  centres.reserve(faces.size());
+  for (const FaceId f : faces) {
+    const auto sides = mesh.sides(f);
+    const auto p = [&](std::size_t i) -> const Vec3& { return mesh.position(mesh.origin(sides[i])); };
+    centres.push_back((p(0) + p(1) + p(2) + (sides[3].valid() ? p(3) : Vec3{})) / (sides[3].valid() ? 4.0 : 3.0));
+  }
+  return centres;
+}
+
+/// The largest distance of the points from the face.
+double distanceOf(const std::vector<Vec3>& points, const TriangleBvh& face) {
+  double largest = 0.0;
+  for (const Vec3& p : points) largest = std::max(largest, face.closest(p).squaredDistance);
+  return std::sqrt(largest);
+}
+
+/// How far the stretch will have fallen after so many more sweeps if each lowers it by kNextGain of what the one before
+/// did.
+double foreseen(double stretch, double before, int sweeps) {
+  double gain = std::max(before - stretch, 0.0);
+  for (int i = 0; i < sweeps; ++i) {
+    gain *= kNextGain;
+    stretch -= gain;
+  }
+  return stretch;
 }
 
 std::size_t triangleCount(const EditMesh& mesh, const std::vector<FaceId>& faces) {
@@ -174,61 +204,92 @@ bool TopologicalCleanup::fillCavity(const std::vector<HalfedgeId>& loop, const s
   const std::size_t triangles = triangleCount(mesh_, cavity);
   energy += kTriangleEnergy * static_cast<int>(triangles);
   if (triangles % 2 != 0 || energy <= (corners.size() == 4 ? 0 : 1)) return false;
+  const double count = static_cast<double>(cavity.size()) - 0.5 * static_cast<double>(triangles);
+  const auto fits = [count](std::size_t cells) {
+    return std::fabs(static_cast<double>(cells) - count) <= kCountChange * count + 1.0;
+  };
   std::vector<Vec3> outline;
   for (const HalfedgeId h : loop) outline.push_back(mesh_.position(mesh_.origin(h)));
-  if (const auto pattern = fillSides(outline, corners))
-    return fillWith(*pattern, loop, energy - (corners.size() == 4 ? 0 : 1));
+  if (const auto pattern = fillSides(outline, corners)) {
+    const int drop = energy - (corners.size() == 4 ? 0 : 1);
+    return fits(pattern->cells.size()) && fillWith(*pattern, loop, measureCavity(triangles, count), drop);
+  }
   if (energy <= kTwoEnergy) return false;
-  const std::vector<SideCut> cuts = cutsInTwo(outline, corners, kMostTries);
-  return std::any_of(cuts.begin(), cuts.end(), [&](const SideCut& cut) {
-    return fillWith(fillCut(outline, corners, cut), loop, energy - kTwoEnergy);
-  });
+  std::optional<Measures> before;
+  for (const SideCut& cut : cutsInTwo(outline, corners, kMostTries)) {
+    if (!fits(static_cast<std::size_t>(cut.cells))) continue;
+    if (!before) before = measureCavity(triangles, count);
+    if (fillWith(fillCut(outline, corners, cut), loop, *before, energy - kTwoEnergy)) return true;
+  }
+  return false;
 }
 
-bool TopologicalCleanup::fillWith(const SidePattern& pattern, const std::vector<HalfedgeId>& loop, int drop) {
-  const std::vector<FaceId>& cavity = cavity_.faces();
-  const std::size_t triangles = triangleCount(mesh_, cavity);
-  const double count = static_cast<double>(cavity.size()) - 0.5 * static_cast<double>(triangles);
-  if (std::fabs(static_cast<double>(pattern.cells.size()) - count) > kCountChange * count + 1.0) return false;
+TopologicalCleanup::Measures TopologicalCleanup::measureCavity(std::size_t triangles, double count) const {
+  const Shapes shapes = shapesOf(mesh_, cavity_.faces());
+  Measures measures;
+  measures.triangles = triangles;
+  measures.count = count;
+  measures.least = std::min(triangles > 0 ? options_.leastShape : kGoodShape, shapes.worst);
+  measures.meanShape = shapes.mean;
+  measures.stretch = stretchOf(mesh_, cavity_.faces());
+  return measures;
+}
 
-  const double worstBefore = std::min(triangles > 0 ? options_.leastShape : kGoodShape, worstOf(mesh_, cavity));
-  const double meanBefore = meanShape(mesh_, cavity);
-  const double stretchBefore = stretchOf(mesh_, cavity);
-  std::vector<Vec3> outline;
-  for (const HalfedgeId h : loop) outline.push_back(mesh_.position(mesh_.origin(h)));
-  const Promise promise = promiseOf(pattern, std::move(outline));
-  // Written such that a NaN is no promise.
-  if (!(promise.stretch <= stretchBefore + kPromisedStretch * drop)) return false;
-  if (!(promise.meanShape >= meanBefore - kPromisedLoss)) return false;
-  const Cover before = coverOf(mesh_, target_.face, cavity);
-  const double size = std::sqrt(before.area / count);
-  RelaxationTarget rough = target_;
-  rough.onPatch = true;
+/// The inner vertices of a pattern for the cavity, on the patch.
+std::vector<EditMesh::Vertex> TopologicalCleanup::innerVertices(const SidePattern& pattern,
+                                                                const RelaxationTarget& rough) const {
   // The old inner vertices are good places to project from.
-  std::vector<VertexId> old = cornersOf(mesh_, cavity);
+  const std::vector<VertexId> old = cornersOf(mesh_, cavity_.faces());
   std::vector<EditMesh::Vertex> inner;
+  inner.reserve(pattern.inner.size());
   for (const Vec3& p : pattern.inner) {
     const auto nearest = std::min_element(old.begin(), old.end(), [&](VertexId a, VertexId b) {
       return squaredNorm(mesh_.position(a) - p) < squaredNorm(mesh_.position(b) - p);
     });
     inner.push_back(projectVertex(rough, mesh_.vertex(*nearest), p));
   }
+  return inner;
+}
+
+/// Relaxes a cavity that was filled anew. Returns whether its elements are less stretched than allowed in the end.
+bool TopologicalCleanup::settleFilled(const std::vector<FaceId>& filled, const std::vector<VertexId>& moving,
+                                      const RelaxationTarget& rough, double allowed) {
+  double stretch = stretchOf(mesh_, filled);
+  for (int sweep = 0; sweep < kSettleSweeps; ++sweep) {
+    relax(mesh_, moving, sweep < kRoughSweeps ? rough : target_, kGoodShape);
+    const double before = std::exchange(stretch, stretchOf(mesh_, filled));
+    if (!(foreseen(stretch, before, kSettleSweeps - 1 - sweep) <= allowed)) return false;
+  }
+  return true;
+}
+
+bool TopologicalCleanup::fillWith(const SidePattern& pattern, const std::vector<HalfedgeId>& loop,
+                                  const Measures& before, int drop) {
+  const std::vector<FaceId>& cavity = cavity_.faces();
+  std::vector<Vec3> outline;
+  for (const HalfedgeId h : loop) outline.push_back(mesh_.position(mesh_.origin(h)));
+  const Promise promise = promiseOf(pattern, std::move(outline));
+  // Written such that a NaN is no promise.
+  if (!(promise.stretch <= before.stretch + kPromisedStretch * drop)) return false;
+  if (!(promise.meanShape >= before.meanShape - kPromisedLoss)) return false;
+  const double area = areaOf(mesh_, cavity);
+  const std::vector<Vec3> centres = centresOf(mesh_, cavity);
+  RelaxationTarget rough = target_;
+  rough.onPatch = true;
+  const std::vector<EditMesh::Vertex> inner = innerVertices(pattern, rough);
   const std::size_t mark = mesh_.mark();
   const std::vector<FaceId> filled = mesh_.fill(loop, cavity, pattern.cells, inner);
   const std::vector<VertexId> moving = cornersOf(mesh_, filled);
-  bool isSlim = true;
-  for (int sweep = 0; sweep < kSettleSweeps && isSlim; ++sweep) {
-    relax(mesh_, moving, sweep < kRoughSweeps ? rough : target_, kGoodShape);
-    const bool isLast = sweep + 1 == kSettleSweeps;
-    if (!isLast && sweep != kEarlySweep) continue;
-    const double worth = isLast ? kStretchWorth : kEarlyStretch;
-    isSlim = stretchOf(mesh_, filled) <= stretchBefore + worth * drop;
-  }
-  const Cover after = coverOf(mesh_, target_.face, filled);
-  const double worth = triangles > 0 ? kNoTriangleWorth : kRegularityWorth;
-  const bool covers =
-      after.area >= kAreaKept * before.area && after.distance <= std::max(kNear * size, 1.5 * before.distance);
-  if (isSlim && covers && worstOf(mesh_, filled) >= worstBefore && meanShape(mesh_, filled) >= meanBefore - worth) {
+  const auto isGood = [&] {
+    if (!settleFilled(filled, moving, rough, before.stretch + kStretchWorth * drop)) return false;
+    const Shapes after = shapesOf(mesh_, filled);
+    const double worth = before.triangles > 0 ? kNoTriangleWorth : kRegularityWorth;
+    if (after.worst < before.least || after.mean < before.meanShape - worth) return false;
+    if (areaOf(mesh_, filled) < kAreaKept * area) return false;
+    const double distance = distanceOf(centresOf(mesh_, filled), target_.face);
+    return distance <= kNear * std::sqrt(area / before.count) || distance <= 1.5 * distanceOf(centres, target_.face);
+  };
+  if (isGood()) {
     touched_.insert(touched_.end(), moving.begin(), moving.end());
     mesh_.commit();
     ++statistics_.cavities;

@@ -58,8 +58,12 @@ Result<CleanupResult> cleanUp(const FaceMesh& mesh, const Patch& patch, const Tr
   constexpr int kSweepsPerRound = 3;
   constexpr std::int32_t kSmallRounds = 2;
   constexpr int kCavityPasses = 2;
+  // On the way the patch is near enough; in the end the vertices go to the face itself.
+  constexpr std::int32_t kSweepsOnFace = 3;
+  RelaxationTarget onTheWay = where;
+  onTheWay.onPatch = true;
   int cavityPasses = 0;
-  LazyRelaxation relaxation(work, where, kEnough);
+  LazyRelaxation relaxation(work, onTheWay, kEnough);
   for (std::int32_t round = 0; options.topology && round < options.rounds; ++round) {
     if (!progress.report(Stage::cleanup, 0.7 * round / options.rounds)) return cancelledError();
     note(TraceKind::smooth);
@@ -78,9 +82,9 @@ Result<CleanupResult> cleanUp(const FaceMesh& mesh, const Patch& patch, const Tr
   note(TraceKind::smooth);
   for (std::int32_t sweep = 0; sweep < options.sweeps; ++sweep) {
     if (!progress.report(Stage::cleanup, 0.7 + 0.3 * sweep / options.sweeps)) return cancelledError();
-    const bool isStill = !relaxation.sweep();
+    if (sweep == std::max(0, options.sweeps - kSweepsOnFace)) relaxation.land();
+    relaxation.sweep();
     work.commit();
-    if (isStill) break;
   }
   note(TraceKind::untangle);
   const std::int64_t turnedOver = untangle(work, where);

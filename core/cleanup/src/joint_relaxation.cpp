@@ -108,6 +108,8 @@ class JointRelaxation {
 
   Result<std::int64_t> run(Progress& progress) {
     const std::vector<Vec3> before = nodes_;
+    std::vector<LazyRelaxation> relaxations;
+    for (std::size_t f = 0; f < meshes_.size(); ++f) relaxations.emplace_back(meshes_[f], targetOf(f), kEnough, false);
     for (int round = 0; round < options_.rounds; ++round) {
       if (!progress.report(Stage::cleanup, static_cast<double>(round) / options_.rounds)) return cancelledError();
       std::vector<std::vector<VertexId>> moved(meshes_.size());
@@ -121,8 +123,10 @@ class JointRelaxation {
       }
       if (isStill) break;
       for (std::size_t f = 0; f < meshes_.size(); ++f) {
-        const std::vector<VertexId> near = around(meshes_[f], moved[f]);
-        for (int i = 0; i < kSweepsPerRound && !near.empty(); ++i) relax(meshes_[f], near, targetOf(f), kEnough);
+        if (moved[f].empty()) continue;
+        relaxations[f].wake(around(meshes_[f], moved[f]));
+        for (int i = 0; i < kSweepsPerRound && relaxations[f].sweep(); ++i) {
+        }
         meshes_[f].commit();
       }
     }

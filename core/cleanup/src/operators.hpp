@@ -47,7 +47,20 @@ class TopologicalCleanup {
   [[nodiscard]] std::vector<int> wantedInside(const std::vector<HalfedgeId>& loop) const;
   bool grow(const std::vector<VertexId>& around);
   bool fillCavity(const std::vector<HalfedgeId>& loop, const std::vector<int>& corners);
-  bool fillWith(const SidePattern& pattern, const std::vector<HalfedgeId>& loop, int drop);
+  /// What a cavity is like before it is filled with a pattern.
+  struct Measures {
+    std::size_t triangles = 0;
+    double count = 0.0;  ///< Of its quads and pairs of triangles.
+    double least = 0.0;  ///< Shape below which no new element may be.
+    double meanShape = 0.0;
+    double stretch = 0.0;
+  };
+  [[nodiscard]] Measures measureCavity(std::size_t triangles, double count) const;
+  [[nodiscard]] std::vector<EditMesh::Vertex> innerVertices(const SidePattern& pattern,
+                                                            const RelaxationTarget& rough) const;
+  bool settleFilled(const std::vector<FaceId>& filled, const std::vector<VertexId>& moving,
+                    const RelaxationTarget& rough, double allowed);
+  bool fillWith(const SidePattern& pattern, const std::vector<HalfedgeId>& loop, const Measures& before, int drop);
   /// Relaxes around the vertices and keeps the change since mark if no element there has a shape below `least`.
   bool settle(const std::vector<VertexId>& vertices, double least, std::size_t mark);
 
@@ -56,8 +69,8 @@ class TopologicalCleanup {
   const RelaxationTarget& target_;
   const CleanupOptions& options_;
   CleanupStatistics statistics_;
-  TraceRecorder* trace_;           ///< nullptr: nobody wants the history.
-  Cavity cavity_;                  ///< The region being looked at.
+  TraceRecorder* trace_;  ///< nullptr: nobody wants the history.
+  Cavity cavity_;         ///< The region being looked at.
   /// Signatures of cavities that no pattern was found for. Their faces have other ids once something changes there.
   std::unordered_set<std::uint64_t> triedCavities_;
   std::vector<VertexId> touched_;  ///< See takeTouched().

@@ -100,8 +100,13 @@ void relax(EditMesh& mesh, const std::vector<VertexId>& vertices, const Relaxati
   }
 }
 
-LazyRelaxation::LazyRelaxation(EditMesh& mesh, const RelaxationTarget& target, double enough)
-    : mesh_(mesh), target_(target), enough_(enough), awake_(mesh.vertexCapacity(), 1) {}
+LazyRelaxation::LazyRelaxation(EditMesh& mesh, const RelaxationTarget& target, double enough, bool isAwake)
+    : mesh_(mesh), target_(target), enough_(enough), awake_(mesh.vertexCapacity(), isAwake ? 1 : 0) {}
+
+void LazyRelaxation::land() {
+  target_.onPatch = false;
+  awake_ = IdMap<VertexId, char>(mesh_.vertexCapacity(), 1);
+}
 
 void LazyRelaxation::wake(const std::vector<VertexId>& vertices) {
   awake_.resize(mesh_.vertexCapacity(), 1);

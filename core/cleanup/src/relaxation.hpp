@@ -31,8 +31,11 @@ void relax(EditMesh& mesh, const std::vector<VertexId>& vertices, const Relaxati
 /// Sweeps over all vertices of a mesh that leave out those around which nothing has moved since they were visited last.
 class LazyRelaxation {
  public:
-  LazyRelaxation(EditMesh& mesh, const RelaxationTarget& target, double enough);
+  /// isAwake: whether all vertices are in the beginning.
+  LazyRelaxation(EditMesh& mesh, const RelaxationTarget& target, double enough, bool isAwake = true);
 
+  /// From now on vertices go to the face itself; all are awake.
+  void land();
   /// To be called after a change of the mesh with the vertices that it touched; new ones are awake.
   void wake(const std::vector<VertexId>& vertices);
   /// As relax(), for the vertices that are awake. Returns false once nothing moves by more than a two-hundredth of the
@@ -41,7 +44,7 @@ class LazyRelaxation {
 
  private:
   EditMesh& mesh_;
-  const RelaxationTarget& target_;
+  RelaxationTarget target_;
   double enough_;
   IdMap<VertexId, char> awake_;
 };

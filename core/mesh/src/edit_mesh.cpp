@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
-#include <tuple>
+#include <numeric>
 
 namespace qmcf {
 
@@ -36,31 +36,47 @@ EditMesh::EditMesh(const FaceMesh& mesh) {
   for (const VertexId v : IdRange<VertexId>(mesh.positions.size())) {
     vertices_[v] = {mesh.positions[v.index()], mesh.normals[v.index()], mesh.locations[v.index()]};
   }
-  std::vector<std::tuple<std::int32_t, std::int32_t, std::int32_t>> edges;  // from, to, half-edge
+  std::vector<std::int32_t> leaving(mesh.positions.size() + 1, 0);  // Of the half-edges by origin, the first of each.
   for (std::size_t f = 0; f < mesh.elements.size(); ++f) {
     const Element& element = mesh.elements[f];
     const auto first = static_cast<std::int32_t>(halfedgeCapacity());
     const auto count = static_cast<std::int32_t>(qmcf::cornerCount(element));
     for (std::int32_t c = 0; c < count; ++c) {
       const std::int32_t from = element[static_cast<std::size_t>(c)];
-      const std::int32_t to = element[static_cast<std::size_t>((c + 1) % count)];
-      edges.emplace_back(from, to, first + c);
+      ++leaving[static_cast<std::size_t>(from) + 1];
       links_[kNext].push_back(first + (c + 1) % count);
       links_[kPrev].push_back(first + (c + count - 1) % count);
-      links_[kTwin].push_back(kNone);
       links_[kOrigin].push_back(from);
       links_[kFace].push_back(static_cast<std::int32_t>(f));
     }
     links_[kFaceHalfedge].push_back(first);
     links_[kFaceKind].push_back(static_cast<std::int32_t>(FaceKind::element));
   }
-  std::sort(edges.begin(), edges.end());
-  for (const auto& [from, to, h] : edges) {
-    const auto reverse = std::lower_bound(edges.begin(), edges.end(), std::tuple{to, from, 0});
-    const bool inner = reverse != edges.end() && std::get<0>(*reverse) == to && std::get<1>(*reverse) == from;
-    if (inner) links_[kTwin][static_cast<std::size_t>(h)] = std::get<2>(*reverse);
-    std::int32_t& outgoing = links_[kOutgoing][static_cast<std::size_t>(from)];
-    if (outgoing == kNone || !inner) outgoing = h;
+  links_[kTwin].assign(halfedgeCapacity(), kNone);
+  std::partial_sum(leaving.begin(), leaving.end(), leaving.begin());
+  std::vector<HalfedgeId> byOrigin(halfedgeCapacity());
+  std::vector<std::int32_t> place(leaving.begin(), leaving.end() - 1);
+  for (std::size_t i = 0; i < halfedgeCapacity(); ++i) {
+    const HalfedgeId h(i);
+    byOrigin[static_cast<std::size_t>(place[origin(h).index()]++)] = h;
+  }
+  for (const VertexId v : IdRange<VertexId>(mesh.positions.size())) {
+    const auto first = static_cast<std::size_t>(leaving[v.index()]);
+    const auto last = static_cast<std::size_t>(leaving[v.index() + 1]);
+    // A boundary half-edge, or the one to the smallest vertex.
+    HalfedgeId chosen;
+    for (std::size_t i = first; i < last; ++i) {
+      const HalfedgeId h = byOrigin[i];
+      const std::size_t to = target(h).index();
+      for (auto j = static_cast<std::size_t>(leaving[to]); j < static_cast<std::size_t>(leaving[to + 1]); ++j) {
+        if (target(byOrigin[j]) != v) continue;
+        links_[kTwin][h.index()] = byOrigin[j].value;
+        break;
+      }
+      const bool isFirst = !chosen.valid() || (twin(chosen).valid() && target(h) < target(chosen));
+      if (isFirst || !twin(h).valid()) chosen = h;
+    }
+    links_[kOutgoing][v.index()] = chosen.value;
   }
 }
 
@@ -202,9 +218,10 @@ VertexId EditMesh::splitEdge(HalfedgeId h, const Vertex& vertex) {
 }
 
 void EditMesh::clear(const std::vector<HalfedgeId>& boundary, const std::vector<FaceId>& region) {
+  for (const HalfedgeId h : boundary) set(kFace, h.index(), kNone);
   for (const FaceId f : region) {
     for (const HalfedgeId h : sides(f)) {
-      if (!h.valid() || std::find(boundary.begin(), boundary.end(), h) != boundary.end()) continue;
+      if (!h.valid() || !face(h).valid()) continue;
       const VertexId v = origin(h);
       if (outgoing(v) == h) set(kOutgoing, v.index(), kNone);
       removeHalfedge(h);
@@ -235,16 +252,24 @@ std::vector<FaceId> EditMesh::fill(const std::vector<HalfedgeId>& boundary, cons
   clear(boundary, region);
   for (const Vertex& vertex : inner) vertices.push_back(addVertex(vertex));
   std::vector<HalfedgeId> added;
+  // Per vertex the last added half-edge that leaves it, and per added edge those of its ends before.
+  std::vector<HalfedgeId> lastOut(vertices.size());
+  std::vector<std::array<HalfedgeId, 2>> before;
+  const auto firstAdded = static_cast<std::int32_t>(halfedgeCapacity());
   const auto halfedgeBetween = [&](int from, int to) {
     const auto count = static_cast<int>(boundary.size());
     if (from < count && to == (from + 1) % count) return boundary[static_cast<std::size_t>(from)];
-    const VertexId a = vertices[static_cast<std::size_t>(from)];
-    const VertexId b = vertices[static_cast<std::size_t>(to)];
-    for (const HalfedgeId h : added) {
-      if (origin(h) == a && origin(twin(h)) == b) return h;
-      if (origin(h) == b && origin(twin(h)) == a) return twin(h);
+    const auto i = static_cast<std::size_t>(from);
+    const auto j = static_cast<std::size_t>(to);
+    for (HalfedgeId h = lastOut[i]; h.valid();) {
+      if (origin(twin(h)) == vertices[j]) return h;
+      const std::int32_t place = h.value - firstAdded;
+      h = before[static_cast<std::size_t>(place / 2)][static_cast<std::size_t>(place % 2)];
     }
-    added.push_back(addEdge(a, b));
+    added.push_back(addEdge(vertices[i], vertices[j]));
+    before.push_back({lastOut[i], lastOut[j]});
+    lastOut[i] = added.back();
+    lastOut[j] = twin(added.back());
     return added.back();
   };
   std::vector<FaceId> faces;

@@ -191,8 +191,8 @@ struct Outline {
   double edge = 0.0;
 };
 
-/// One part of a loop that is cut in two: from a vertex along the loop to another, and back along the cut. The number of
-/// the cut's edges may be changed.
+/// One part of a loop that is cut in two: from a vertex along the loop to another, and back along the cut. The number
+/// of the cut's edges may be changed.
 class Part {
  public:
   Part(const Outline& outline, const std::vector<int>& corners, int from, int to)
@@ -269,6 +269,7 @@ double misfit(double length, int edges, double h) {
 struct Filling {
   double misfit = 0.0;   ///< The sum over the spokes.
   int centreOnCut = -1;  ///< How far along the part's cut the vertex lies; -1 if it lies inside.
+  int cells = 0;
 };
 
 /// Nothing if the misfit is at least `most`. \pre the cut is as long as narrow() asks, the part's loop even
@@ -282,7 +283,9 @@ std::optional<Filling> fillingOf(const Part& part, double h, double most) {
     middle = part.position(part.corners().back() + filling.centreOnCut);
   }
   for (std::size_t i = 0; i < k; ++i) {
-    const int split = (part.corners()[i] + spokes[(i + k - 1) % k]) % part.count();
+    const int before = spokes[(i + k - 1) % k];
+    const int split = (part.corners()[i] + before) % part.count();
+    filling.cells += before * spokes[i];
     if (spokes[i] > 0) filling.misfit += misfit(distance(part.position(split), middle), spokes[i], h);
     if (filling.misfit >= most) return std::nullopt;
   }
@@ -343,7 +346,8 @@ void addCuts(const Outline& outline, const std::vector<int>& corners, int from, 
     // The parts run along the cut in opposite directions. Both middles in one place are one vertex.
     const bool onCut = firstFilling->centreOnCut >= 0 && secondFilling->centreOnCut >= 0;
     if (onCut && firstFilling->centreOnCut + secondFilling->centreOnCut == edges) continue;
-    best.add(firstFilling->misfit + secondFilling->misfit + own, {from, to, edges});
+    const int cells = firstFilling->cells + secondFilling->cells;
+    best.add(firstFilling->misfit + secondFilling->misfit + own, {from, to, edges, cells});
   }
 }
 

@@ -117,7 +117,11 @@ void expectTwo(const std::vector<Vec3>& loop, const std::vector<int>& corners, c
   const std::vector<SideCut> cuts = cutsInTwo(loop, corners, kMost);
   ASSERT_FALSE(cuts.empty());
   EXPECT_LE(cuts.size(), kMost);
-  for (const SideCut& cut : cuts) EXPECT_EQ(expectFills(fillCut(loop, corners, cut), loop, corners), valences);
+  for (const SideCut& cut : cuts) {
+    const SidePattern pattern = fillCut(loop, corners, cut);
+    EXPECT_EQ(expectFills(pattern, loop, corners), valences);
+    EXPECT_EQ(pattern.cells.size(), static_cast<std::size_t>(cut.cells));
+  }
 }
 
 TEST(SidePattern, FillsFourUnequalSidesWithAThreeAndAFive) {

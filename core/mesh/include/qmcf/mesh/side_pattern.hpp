@@ -26,6 +26,7 @@ struct SideCut {
   int from = 0;
   int to = 0;
   int length = 1;
+  int cells = 0;  ///< Quadrilaterals that the loop is filled with.
 };
 
 /// Cuts of such a loop with 2, 4 or 6 corners in two, from side to side, after which each part can be filled around one
