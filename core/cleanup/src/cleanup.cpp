@@ -12,8 +12,10 @@
 namespace qmcf {
 namespace {
 
-/// Quads with a worse shape are better off as two triangles.
+/// Quads with a worse shape are better off as two triangles; poor ones are if these are better by so much.
 constexpr double kHopeless = 0.05;
+constexpr double kPoor = 0.15;
+constexpr double kGain = 0.15;
 
 /// Cuts quads that are turned over at a corner, or nearly, into triangles that are not. Returns how many.
 std::int64_t cutInverted(EditMesh& mesh) {
@@ -22,17 +24,19 @@ std::int64_t cutInverted(EditMesh& mesh) {
   for (std::size_t i = 0; i < faces; ++i) {
     const FaceId f(i);
     if (mesh.kind(f) == FaceKind::removed || mesh.cornerCount(f) != 4) continue;
-    if (!isInverted(mesh, f) && faceShape(mesh, f) >= kHopeless) continue;
+    const double shape = faceShape(mesh, f);
+    const bool isHopeless = isInverted(mesh, f) || !(shape >= kHopeless);
+    if (!isHopeless && shape >= kPoor) continue;
     const auto sides = mesh.sides(f);
     const auto corner = [&](std::size_t c) { return mesh.origin(sides[c % 4]); };
-    double best = 0.0;
+    double best = isHopeless ? 0.0 : shape + kGain;
     std::size_t from = 4;
     for (std::size_t c = 0; c < 2; ++c) {
       if (mesh.connected(corner(c), corner(c + 2))) continue;
-      const double shape = std::min(triangleShape(mesh, corner(c), corner(c + 1), corner(c + 2)),
+      const double worse = std::min(triangleShape(mesh, corner(c), corner(c + 1), corner(c + 2)),
                                     triangleShape(mesh, corner(c), corner(c + 2), corner(c + 3)));
-      if (shape <= best) continue;
-      best = shape;
+      if (worse <= best) continue;
+      best = worse;
       from = c;
     }
     if (from == 4) continue;
