@@ -20,7 +20,6 @@ constexpr double kGoodShape = 0.45;
 /// How much of the mean shape a more regular mesh is worth.
 constexpr double kRegularityWorth = 0.03;
 constexpr double kNoTriangleWorth = 0.1;
-constexpr int kTriangleEnergy = 4;
 /// Energy of two irregular vertices, and how many patterns with two are tried.
 constexpr int kTwoEnergy = 2;
 constexpr std::size_t kMostTries = 6;
@@ -140,11 +139,6 @@ double foreseen(double stretch, double before, int sweeps) {
     stretch -= gain;
   }
   return stretch;
-}
-
-std::size_t triangleCount(const EditMesh& mesh, const std::vector<FaceId>& faces) {
-  return static_cast<std::size_t>(
-      std::count_if(faces.begin(), faces.end(), [&](FaceId f) { return mesh.cornerCount(f) == 3; }));
 }
 
 }  // namespace

@@ -59,6 +59,11 @@ int irregularity(bool boundary, int excess) {
   return boundary && excess < 0 ? kReflex * excess * excess : excess * excess;
 }
 
+std::size_t triangleCount(const EditMesh& mesh, const std::vector<FaceId>& faces) {
+  return static_cast<std::size_t>(
+      std::count_if(faces.begin(), faces.end(), [&](FaceId f) { return mesh.cornerCount(f) == 3; }));
+}
+
 bool allQuads(const EditMesh& mesh, const std::vector<FaceId>& faces) {
   return std::all_of(faces.begin(), faces.end(), [&](FaceId f) { return mesh.cornerCount(f) == 4; });
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -67,6 +68,10 @@ std::vector<VertexId> cornersOf(const EditMesh& mesh, const std::vector<FaceId>&
 /// corner in one of them, which no relaxation can mend.
 int irregularity(bool boundary, int excess);
 
+/// What a triangle adds to it.
+inline constexpr int kTriangleEnergy = 4;
+
+std::size_t triangleCount(const EditMesh& mesh, const std::vector<FaceId>& faces);
 bool allQuads(const EditMesh& mesh, const std::vector<FaceId>& faces);
 
 /// The smallest faceShape() of the faces.

@@ -14,6 +14,9 @@ constexpr int kSettleSweeps = 4;
 /// Where an element is poor, a change that makes nothing more regular is welcome if the worst shape gains this much.
 constexpr double kPoor = 0.4;
 constexpr double kWorthwhile = 0.08;
+/// Quads between two triangles that become quads with them; more make a loop that is longer than there are fillings
+/// for.
+constexpr std::size_t kLongestBridge = 3;
 
 std::vector<VertexId> withNeighbours(const EditMesh& mesh, const std::vector<VertexId>& vertices) {
   std::vector<VertexId> all = vertices;
@@ -129,7 +132,8 @@ bool TopologicalCleanup::collapseDiagonal(HalfedgeId corner) {
 }
 
 bool TopologicalCleanup::refill() {
-  if (!allQuads(mesh_, cavity_.faces())) return false;
+  const std::size_t triangles = triangleCount(mesh_, cavity_.faces());
+  if (triangles % 2 != 0) return false;
   const auto loop = cavity_.boundaryLoop(mesh_);
   if (!loop) return false;
   const auto length = static_cast<int>(loop->size());
@@ -137,7 +141,7 @@ bool TopologicalCleanup::refill() {
   if (ways.empty()) return false;
   std::vector<VertexId> vertices;
   std::vector<int> outside;
-  int energyBefore = 0;
+  int energyBefore = kTriangleEnergy * static_cast<int>(triangles);
   for (const VertexId v : cornersOf(mesh_, cavity_.faces())) {
     energyBefore += irregularity(mesh_.isBoundary(v), excess(v));
   }
@@ -228,12 +232,46 @@ bool TopologicalCleanup::refillAround(VertexId v) {
   return false;
 }
 
+bool TopologicalCleanup::bridgeTriangles(FaceId from, std::size_t quads) {
+  path_.push_back(from);
+  bool changed = false;
+  for (const HalfedgeId h : mesh_.sides(from)) {
+    if (changed || !h.valid() || !mesh_.twin(h).valid()) continue;
+    const FaceId next = mesh_.face(mesh_.twin(h));
+    if (std::find(path_.begin(), path_.end(), next) != path_.end()) continue;
+    const bool isTriangle = mesh_.cornerCount(next) == 3;
+    if (isTriangle && quads == 0) {
+      cavity_.clear();
+      for (const FaceId f : path_) cavity_.add(f);
+      cavity_.add(next);
+      changed = refill();
+    } else if (!isTriangle && quads > 0) {
+      changed = bridgeTriangles(next, quads - 1);
+    }
+  }
+  path_.pop_back();
+  return changed;
+}
+
+std::int64_t TopologicalCleanup::bridgeAllTriangles() {
+  std::int64_t changes = 0;
+  for (std::size_t quads = 0; quads <= kLongestBridge; ++quads) {
+    for (std::size_t i = 0; i < mesh_.faceCapacity(); ++i) {
+      const FaceId f(i);
+      if (mesh_.kind(f) == FaceKind::removed || mesh_.cornerCount(f) != 3) continue;
+      changes += bridgeTriangles(f, quads) ? 1 : 0;
+    }
+  }
+  return changes;
+}
+
 std::int64_t TopologicalCleanup::pass() {
   std::int64_t changes = 0;
   note(TraceKind::doublet);
   for (std::size_t i = 0; i < mesh_.vertexCapacity(); ++i) changes += removeDoublet(VertexId(i)) ? 1 : 0;
   note(TraceKind::pair);
   for (std::size_t i = 0; i < mesh_.halfedgeCapacity(); ++i) changes += pairTriangles(HalfedgeId(i)) ? 1 : 0;
+  changes += bridgeAllTriangles();
   note(TraceKind::collapse);
   for (std::size_t i = 0; i < mesh_.halfedgeCapacity(); ++i) changes += collapseDiagonal(HalfedgeId(i)) ? 1 : 0;
   note(TraceKind::refill);

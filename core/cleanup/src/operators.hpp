@@ -39,6 +39,10 @@ class TopologicalCleanup {
   [[nodiscard]] int excess(VertexId v) const;
   bool removeDoublet(VertexId v);
   bool pairTriangles(HalfedgeId h);
+  /// Makes quads of two triangles and what lies between them: of path_, `from`, so many quads and a triangle that
+  /// follow.
+  bool bridgeTriangles(FaceId from, std::size_t quads);
+  std::int64_t bridgeAllTriangles();
   bool collapseDiagonal(HalfedgeId corner);
   /// Fills cavity_ anew if that is better.
   bool refill();
@@ -69,8 +73,9 @@ class TopologicalCleanup {
   const RelaxationTarget& target_;
   const CleanupOptions& options_;
   CleanupStatistics statistics_;
-  TraceRecorder* trace_;  ///< nullptr: nobody wants the history.
-  Cavity cavity_;         ///< The region being looked at.
+  TraceRecorder* trace_;      ///< nullptr: nobody wants the history.
+  std::vector<FaceId> path_;  ///< See bridgeTriangles().
+  Cavity cavity_;             ///< The region being looked at.
   /// Signatures of cavities that no pattern was found for. Their faces have other ids once something changes there.
   std::unordered_set<std::uint64_t> triedCavities_;
   std::vector<VertexId> touched_;  ///< See takeTouched().

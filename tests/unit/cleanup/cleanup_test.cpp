@@ -72,6 +72,27 @@ TEST(CleanUp, PairsTrianglesOfASplitQuad) {
   for (const Element& element : result.mesh.elements) EXPECT_EQ(cornerCount(element), 4U);
 }
 
+TEST(CleanUp, BridgesTrianglesWithQuadsBetween) {
+  // A row of the grid is cut askew: a triangle at each end and parallelograms between.
+  for (std::size_t between = 1; between <= 3; ++between) {
+    const Patch patch = testing::makeSquare(8);
+    FaceMesh mesh = testing::gridMesh(patch, 8);
+    const std::size_t first = 3 * 8 + 1;
+    const std::vector<Element> row(mesh.elements.begin() + 25, mesh.elements.begin() + 30);
+    mesh.elements[first] = {row[0][0], row[0][1], row[0][3], kNone};
+    for (std::size_t i = 0; i < between; ++i) {
+      mesh.elements[first + 1 + i] = {row[i][1], row[i + 1][1], row[i][2], row[i][3]};
+    }
+    mesh.elements.push_back({row[between][1], row[between][2], row[between][3], kNone});
+    const CleanupResult result = clean(mesh, patch);
+    EXPECT_EQ(result.mesh.elements.size(), 64U) << between;
+    EXPECT_EQ(result.statistics.refills, 1) << between;  // Without remeshing a larger region.
+    EXPECT_EQ(result.statistics.cavities, 0) << between;
+    for (const Element& element : result.mesh.elements) EXPECT_EQ(cornerCount(element), 4U) << between;
+    EXPECT_GT(result.worstShape, 0.99) << between;
+  }
+}
+
 TEST(CleanUp, TwoOppositeDipolesGiveWayToAGrid) {
   const Patch patch = testing::makeSquare(8);
   FaceMesh mesh = testing::gridMesh(patch, 8);
