@@ -9,6 +9,7 @@ import { fileURLToPath } from 'node:url';
 import { parseArgs } from 'node:util';
 import { runMeasured } from '../corpus/child.mjs';
 import { judgeMesh } from '../corpus/verdict.mjs';
+import { drawMesh, writeDocument } from './document.mjs';
 
 const ROOT = resolve(dirname(fileURLToPath(import.meta.url)), '../..');
 const USAGE = `usage: tests/table1/run [options]
@@ -16,6 +17,7 @@ const USAGE = `usage: tests/table1/run [options]
   --quads N,...    elements to aim at (3000); several give a table each
   --qmcf PATH      the program (build/native/bin/qmcf)
   --judge PATH     the judge; default: QMCF_JUDGE or ../shared/judge/judge.mjs if it exists; none: qmcf check
+  --write          put the tables, and pictures of the first one's meshes, into docs/algorithm.md
   --goals          fail unless QMCF is better than Q-Morph and as good as the paper's QMCF in every column
 exit status: 0 all meshes are valid (and the goals reached); 1 otherwise; 2 wrong usage`;
 const CPU_SECONDS = 300;
@@ -23,13 +25,18 @@ const SAMPLES = 5000;
 
 /** Means of Jacobian ratio, aspect ratio and orthogonal quality; the best value of each is 1. */
 const PARTS = [
-  { name: 'Fandisk (Figure 1)', key: 'fandisk', paper: { qmorph: [1.162, 1.17, 0.983], qmcf: [1.11, 1.09, 0.985] } },
   {
-    name: 'Cylinder (Figure 10 a, b)', file: join(ROOT, 'samples/cylinder.obj'),
+    name: 'Fandisk (Figure 1)', short: 'fandisk', given: true, view: ['--view', '0.9,-1,0.6'],
+    paper: { qmorph: [1.162, 1.17, 0.983], qmcf: [1.11, 1.09, 0.985] },
+  },
+  {
+    name: 'Cylinder (Figure 10 a, b)', short: 'cylinder', view: ['--view', '0.5,-1,0.7'],
+    file: join(ROOT, 'samples/cylinder.obj'),
     paper: { qmorph: [1.19, 1.25, 0.97], qmcf: [1.07, 1.09, 0.99] },
   },
   {
-    name: 'Varying size (Figure 10 c, d)', file: join(ROOT, 'samples/varying.stl'),
+    name: 'Varying size (Figure 10 c, d)', short: 'varying', view: ['--view', '0.2,-0.7,1'],
+    file: join(ROOT, 'samples/varying.stl'),
     paper: { qmorph: [1.39, 1.38, 0.943], qmcf: [1.3, 1.24, 0.965] },
   },
 ];
@@ -40,7 +47,7 @@ const better = (column, a, b) => (column === 2 ? a > b : a < b);
 function parseCommandLine() {
   const text = { type: 'string' };
   const { values } = parseArgs({
-    options: { fandisk: text, quads: text, qmcf: text, judge: text, goals: { type: 'boolean' }, help: { type: 'boolean' } },
+    options: { fandisk: text, quads: text, qmcf: text, judge: text, goals: { type: 'boolean' }, write: { type: 'boolean' }, help: { type: 'boolean' } },
   });
   if (values.help) return null;
   const counts = (values.quads ?? '3000').split(',').map(Number);
@@ -49,6 +56,7 @@ function parseCommandLine() {
   return {
     counts,
     goals: values.goals ?? false,
+    write: values.write ?? false,
     fandisk: values.fandisk ?? join(ROOT, '../shared/models/fandisk.obj'),
     qmcf: values.qmcf ?? join(ROOT, 'build/native/bin/qmcf'),
     judge: existsSync(judge) ? judge : null,
@@ -121,15 +129,18 @@ async function main() {
     console.error(`There is no program at ${options.qmcf}.`);
     return 2;
   }
-  const parts = PARTS.map((part) => (part.key ? { ...part, file: options[part.key] } : part)).filter(({ file }) => existsSync(file));
+  const parts = PARTS.map((part) => (part.given ? { ...part, file: options.fandisk } : part)).filter(({ file }) => existsSync(file));
   const folder = mkdtempSync(join(tmpdir(), 'qmcf-table1-'));
   const missing = [];
+  const tables = [];
   let valid = true;
   for (const quads of options.counts) {
     const rows = [HEADER];
     for (const part of parts) {
-      const [qmcf, qmorph] = [await measure(options, part.file, 'qmcf', quads, join(folder, 'qmcf.obj')),
-        await measure(options, part.file, 'qmorph', quads, join(folder, 'qmorph.obj'))];
+      const meshOf = (mode) => join(folder, `${mode}.obj`);
+      const [qmcf, qmorph] = [await measure(options, part.file, 'qmcf', quads, meshOf('qmcf')),
+        await measure(options, part.file, 'qmorph', quads, meshOf('qmorph'))];
+      if (options.write && tables.length === 0) ['qmcf', 'qmorph'].forEach((mode) => drawMesh(part, mode, meshOf(mode)));
       rows.push(measuredRow(part.name, 'QMCF', qmcf), paperRow("paper's QMCF", part.paper.qmcf),
         measuredRow('', 'Q-Morph', qmorph), paperRow("paper's Q-Morph", part.paper.qmorph));
       missing.push(...shortcomings(part, qmcf, qmorph));
@@ -138,8 +149,10 @@ async function main() {
     console.log(`About ${quads} elements; means over the quads, best 1`);
     printTable(rows);
     console.log();
+    tables.push({ quads, rows });
   }
   rmSync(folder, { recursive: true });
+  if (options.write) writeDocument(tables, parts);
   if (parts.length < PARTS.length) console.log('The fandisk is not here; its row is left out.');
   console.log(missing.length ? `Goals missed:\n  ${missing.join('\n  ')}` : 'All goals reached.');
   return valid && (!options.goals || missing.length === 0) ? 0 : 1;
