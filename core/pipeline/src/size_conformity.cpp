@@ -45,8 +45,10 @@ class PatchSizes {
  public:
   explicit PatchSizes(const Patch& patch) : patch_(patch), tree_(surfaceTree(patch.surface)) {}
 
-  [[nodiscard]] double at(const Vec3& p) const {
-    const ClosestPoint near = tree_.closest(p);
+  /// Fast where points that follow each other are near each other.
+  [[nodiscard]] double at(const Vec3& p) {
+    const ClosestPoint near = tree_.closest(p, last_);
+    last_ = near.triangle;
     const std::array<VertexId, 3> corners = patch_.surface.corners(TriangleId(near.triangle));
     double size = 0.0;
     for (std::size_t c = 0; c < 3; ++c) size += near.barycentric[c] * patch_.size[corners[c]];
@@ -56,6 +58,7 @@ class PatchSizes {
  private:
   const Patch& patch_;
   TriangleBvh tree_;
+  std::int32_t last_ = -1;
 };
 
 std::vector<Vec3> middlesOf(const QuadMesh& mesh, const std::vector<MeasuredEdge>& edges) {
@@ -89,7 +92,7 @@ SizeConformity sizeConformity(const QuadMesh& mesh, const TriangleMesh& repaired
   std::vector<double> lengths;
   for (std::size_t i = 0; i < edges.size();) {
     const std::int32_t face = edges[i].face;
-    const PatchSizes sizes(prepared.patches[static_cast<std::size_t>(face)]);
+    PatchSizes sizes(prepared.patches[static_cast<std::size_t>(face)]);
     for (; i < edges.size() && edges[i].face == face; ++i) {
       const Vec3& a = mesh.positions[static_cast<std::size_t>(edges[i].ends[0])];
       const Vec3& b = mesh.positions[static_cast<std::size_t>(edges[i].ends[1])];

@@ -31,7 +31,22 @@ TriangleBvh treeOf(const MeasuredMesh& measured) {
   return {positions, triangles};
 }
 
-double distanceTo(const TriangleBvh& tree, const Vec3& point) { return std::sqrt(tree.closest(point).squaredDistance); }
+double distanceTo(const TriangleBvh& tree, const Vec3& point, std::int32_t hint = -1) {
+  return std::sqrt(tree.closest(point, hint).squaredDistance);
+}
+
+/// Per vertex of the mesh, the triangle of the part below one of its elements.
+std::vector<std::int32_t> trianglesBelow(const MeasuredMesh& measured, const std::vector<ClosestPoint>& projected) {
+  std::vector<std::int32_t> below(measured.mesh.positions.size(), -1);
+  for (std::size_t e = 0; e < measured.mesh.elements.size(); ++e) {
+    if (measured.usable[e] == 0) continue;
+    const Element& element = measured.mesh.elements[e];
+    for (std::size_t c = 0; c < cornerCount(element); ++c) {
+      below[static_cast<std::size_t>(element[c])] = projected[e].triangle;
+    }
+  }
+  return below;
+}
 
 double largestGapOf(const MeasuredMesh& measured, const Reference& reference) {
   const TriangleBvh tree = treeOf(measured);
@@ -79,8 +94,11 @@ bool isTurnedOver(const MeasuredMesh& measured, std::size_t e, const Reference& 
 
 std::vector<ClosestPoint> projectCentres(const MeasuredMesh& measured, const Reference& reference) {
   std::vector<ClosestPoint> result(measured.mesh.elements.size());
+  std::int32_t last = -1;  // Elements that follow each other tend to be neighbours.
   for (std::size_t e = 0; e < result.size(); ++e) {
-    if (measured.usable[e] != 0) result[e] = reference.bvh.closest(measured.centres[e]);
+    if (measured.usable[e] == 0) continue;
+    result[e] = reference.bvh.closest(measured.centres[e], last);
+    last = result[e].triangle;
   }
   return result;
 }
@@ -88,9 +106,10 @@ std::vector<ClosestPoint> projectCentres(const MeasuredMesh& measured, const Ref
 Distances measureDistances(const MeasuredMesh& measured, const Reference& reference,
                            const std::vector<ClosestPoint>& projected) {
   Distances result;
+  const std::vector<std::int32_t> below = trianglesBelow(measured, projected);
   for (std::size_t v = 0; v < measured.mesh.positions.size(); ++v) {
     if (measured.structure.elementsAround[v] == 0) continue;
-    result.largest = std::max(result.largest, distanceTo(reference.bvh, measured.mesh.positions[v]));
+    result.largest = std::max(result.largest, distanceTo(reference.bvh, measured.mesh.positions[v], below[v]));
   }
   double area = 0.0;
   for (std::size_t e = 0; e < measured.mesh.elements.size(); ++e) {

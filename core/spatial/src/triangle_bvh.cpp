@@ -4,15 +4,13 @@
 #include <algorithm>
 #include <cstddef>
 #include <limits>
-#include <numeric>
+#include <utility>
 
 namespace qmcf {
 namespace {
 
 constexpr std::int32_t kLeafSize = 4;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-double component(const Vec3& v, int axis) { return axis == 0 ? v.x : (axis == 1 ? v.y : v.z); }
 
 double gap(double p, double low, double high) { return p < low ? low - p : (p > high ? p - high : 0.0); }
 
@@ -80,36 +78,67 @@ ClosestPoint closestOn(const Vec3& query, const std::array<Vec3, 3>& corner) {
   return closestOnSides(query, corner);
 }
 
-struct Builder {
-  const std::vector<Vec3>& centroids;
-  std::vector<std::int32_t>& order;
-
-  /// Halves order[first, last) at the median of its longest axis; ids break ties, so the halves are unique.
-  std::int32_t halve(std::int32_t first, std::int32_t last) const {
-    Vec3 low = centroids[static_cast<std::size_t>(order[static_cast<std::size_t>(first)])];
-    Vec3 high = low;
-    for (std::int32_t i = first; i < last; ++i) {
-      const Vec3& c = centroids[static_cast<std::size_t>(order[static_cast<std::size_t>(i)])];
-      low = {std::min(low.x, c.x), std::min(low.y, c.y), std::min(low.z, c.z)};
-      high = {std::max(high.x, c.x), std::max(high.y, c.y), std::max(high.z, c.z)};
-    }
-    const Vec3 extent = high - low;
-    const int axis = extent.x >= extent.y && extent.x >= extent.z ? 0 : (extent.y >= extent.z ? 1 : 2);
-    const std::int32_t middle = first + (last - first) / 2;
-    std::nth_element(order.begin() + first, order.begin() + middle, order.begin() + last,
-                     [&](std::int32_t a, std::int32_t b) {
-                       const double ca = component(centroids[static_cast<std::size_t>(a)], axis);
-                       const double cb = component(centroids[static_cast<std::size_t>(b)], axis);
-                       return ca != cb ? ca < cb : a < b;
-                     });
-    return middle;
-  }
-};
-
 }  // namespace
 
 ClosestPoint closestPointOnTriangle(const Vec3& query, const Vec3& a, const Vec3& b, const Vec3& c) {
   return closestOn(query, {a, b, c});
+}
+
+/// A triangle on its way into the tree.
+struct TriangleBvh::Item {
+  Vec3 centroid;
+  std::int32_t triangle = 0;
+};
+
+/// Halves items[first, last) at the median of its longest axis; ids break ties, so the halves are unique.
+std::int32_t TriangleBvh::halve(std::vector<Item>& items, std::int32_t first, std::int32_t last) {
+  const auto begin = items.begin() + first;
+  const auto end = items.begin() + last;
+  Vec3 low = begin->centroid;
+  Vec3 high = low;
+  for (auto item = begin; item != end; ++item) {
+    const Vec3& c = item->centroid;
+    low = {std::min(low.x, c.x), std::min(low.y, c.y), std::min(low.z, c.z)};
+    high = {std::max(high.x, c.x), std::max(high.y, c.y), std::max(high.z, c.z)};
+  }
+  const Vec3 extent = high - low;
+  const auto byComponent = [&](double Vec3::*axis) {
+    std::nth_element(begin, begin + (last - first) / 2, end, [axis](const Item& a, const Item& b) {
+      return a.centroid.*axis != b.centroid.*axis ? a.centroid.*axis < b.centroid.*axis : a.triangle < b.triangle;
+    });
+  };
+  if (extent.x >= extent.y && extent.x >= extent.z) {
+    byComponent(&Vec3::x);
+  } else {
+    byComponent(extent.y >= extent.z ? &Vec3::y : &Vec3::z);
+  }
+  return first + (last - first) / 2;
+}
+
+/// Halves the items until few enough are left for a leaf each, and puts them into the order of the leaves. Depth first,
+/// so that what is near in space is near in memory.
+void TriangleBvh::makeNodes(std::vector<Item>& items) {
+  nodes_.reserve(items.size() + 1);
+  nodes_.push_back({{}, {}, 0, static_cast<std::int32_t>(items.size())});
+  std::vector<std::size_t> open{0};
+  while (!open.empty()) {
+    const std::size_t n = open.back();
+    open.pop_back();
+    const auto [first, count] = std::pair(nodes_[n].first, nodes_[n].count);
+    if (count <= kLeafSize) {
+      std::sort(items.begin() + first, items.begin() + first + count,
+                [](const Item& a, const Item& b) { return a.triangle < b.triangle; });
+      continue;
+    }
+    const std::int32_t middle = halve(items, first, first + count);
+    const std::size_t left = nodes_.size();
+    nodes_[n].first = static_cast<std::int32_t>(left);
+    nodes_[n].count = 0;
+    nodes_.push_back({{}, {}, first, middle - first});
+    nodes_.push_back({{}, {}, middle, first + count - middle});
+    open.push_back(left + 1);
+    open.push_back(left);
+  }
 }
 
 TriangleBvh::TriangleBvh(const std::vector<Vec3>& positions,
@@ -120,31 +149,15 @@ TriangleBvh::TriangleBvh(const std::vector<Vec3>& positions,
     return std::array<Vec3, 3>{positions[static_cast<std::size_t>(ids[0])], positions[static_cast<std::size_t>(ids[1])],
                                positions[static_cast<std::size_t>(ids[2])]};
   };
-  order_.resize(triangles.size());
-  std::iota(order_.begin(), order_.end(), 0);
-  std::vector<Vec3> centroids(triangles.size());
+  std::vector<Item> items(triangles.size());
   for (std::size_t t = 0; t < triangles.size(); ++t) {
     const auto [a, b, c] = corners(static_cast<std::int32_t>(t));
-    centroids[t] = (a + b + c) / 3.0;
+    items[t] = {(a + b + c) / 3.0, static_cast<std::int32_t>(t)};
   }
-  const Builder builder{centroids, order_};
 
-  // Children come after their parent, so that one backward pass fits the boxes.
-  nodes_.push_back({{}, {}, 0, static_cast<std::int32_t>(triangles.size()), 0});
-  for (std::size_t n = 0; n < nodes_.size(); ++n) {
-    const std::int32_t first = nodes_[n].first;
-    const std::int32_t last = first + nodes_[n].count;
-    if (nodes_[n].count <= kLeafSize) {
-      std::sort(order_.begin() + first, order_.begin() + last);
-      continue;
-    }
-    const std::int32_t middle = builder.halve(first, last);
-    nodes_[n].first = static_cast<std::int32_t>(nodes_.size());
-    nodes_[n].right = nodes_[n].first + 1;
-    nodes_[n].count = 0;
-    nodes_.push_back({{}, {}, first, middle - first, 0});
-    nodes_.push_back({{}, {}, middle, last - middle, 0});
-  }
+  makeNodes(items);
+  order_.reserve(items.size());
+  for (const Item& item : items) order_.push_back(item.triangle);
 
   place_.resize(order_.size());
   for (std::size_t i = 0; i < order_.size(); ++i) {
@@ -157,6 +170,11 @@ TriangleBvh::TriangleBvh(const std::vector<Vec3>& positions,
     triangles_.push_back({a, b, c});
     normals_.push_back(normalized(cross(b - a, c - a)));
   }
+  fitBoxes();
+}
+
+/// Children come after their parents, so that one backward pass does it.
+void TriangleBvh::fitBoxes() {
   for (std::size_t n = nodes_.size(); n-- > 0;) {
     Node& node = nodes_[n];
     node.low = {kInfinity, kInfinity, kInfinity};
@@ -166,7 +184,7 @@ TriangleBvh::TriangleBvh(const std::vector<Vec3>& positions,
       node.high = {std::max(node.high.x, high.x), std::max(node.high.y, high.y), std::max(node.high.z, high.z)};
     };
     if (node.count == 0) {
-      for (const std::int32_t child : {node.first, node.right}) {
+      for (std::int32_t child = node.first; child < node.first + 2; ++child) {
         include(nodes_[static_cast<std::size_t>(child)].low, nodes_[static_cast<std::size_t>(child)].high);
       }
     }
@@ -194,24 +212,27 @@ ClosestPoint TriangleBvh::search(const Vec3& query, std::int32_t hint, Accept ac
       if (best.squaredDistance <= onSurface_) return best;
     }
   }
-  std::array<Entry, 128> stack;  // Two entries a level, and halving 2^31 triangles takes fewer than 32 levels.
+  std::array<Entry, 64> stack;  // One entry a level, and halving 2^31 triangles takes fewer than 32 levels.
   std::size_t top = 0;
   stack[top++] = {0, 0.0};
   while (top > 0) {
     const Entry entry = stack[--top];
     if (entry.squaredDistance > best.squaredDistance) continue;
-    const Node& node = nodes_[static_cast<std::size_t>(entry.node)];
-    if (node.count == 0) {
-      const Node& left = nodes_[static_cast<std::size_t>(node.first)];
-      const Node& right = nodes_[static_cast<std::size_t>(node.right)];
-      const Entry toLeft{node.first, squaredDistanceToBox(query, left.low, left.high)};
-      const Entry toRight{node.right, squaredDistanceToBox(query, right.low, right.high)};
-      const bool leftFirst = toLeft.squaredDistance <= toRight.squaredDistance;
-      stack[top++] = leftFirst ? toRight : toLeft;
-      stack[top++] = leftFirst ? toLeft : toRight;
-      continue;
+    const Node* node = &nodes_[static_cast<std::size_t>(entry.node)];
+    double nearest = entry.squaredDistance;
+    while (node->count == 0 && nearest <= best.squaredDistance) {
+      const std::int32_t left = node->first;
+      const Node* children = &nodes_[static_cast<std::size_t>(left)];
+      const double toLeft = squaredDistanceToBox(query, children[0].low, children[0].high);
+      const double toRight = squaredDistanceToBox(query, children[1].low, children[1].high);
+      const bool leftFirst = toLeft <= toRight;
+      const double farther = leftFirst ? toRight : toLeft;
+      if (farther <= best.squaredDistance) stack[top++] = {leftFirst ? left + 1 : left, farther};
+      nearest = leftFirst ? toLeft : toRight;
+      node = leftFirst ? children : children + 1;
     }
-    for (std::int32_t i = node.first; i < node.first + node.count; ++i) {
+    if (nearest > best.squaredDistance) continue;
+    for (std::int32_t i = node->first; i < node->first + node->count; ++i) {
       const auto index = static_cast<std::size_t>(i);
       if (squaredDistanceToBox(query, triangles_[index]) > best.squaredDistance || !accept(index)) continue;
       const ClosestPoint candidate = closestOn(query, triangles_[index]);
@@ -225,8 +246,8 @@ ClosestPoint TriangleBvh::search(const Vec3& query, std::int32_t hint, Accept ac
   return best;
 }
 
-ClosestPoint TriangleBvh::closest(const Vec3& query) const {
-  return search(query, -1, [](std::size_t) { return true; });
+ClosestPoint TriangleBvh::closest(const Vec3& query, std::int32_t hint) const {
+  return search(query, hint, [](std::size_t) { return true; });
 }
 
 ClosestPoint TriangleBvh::closest(const Vec3& query, const Vec3& normal, double minCosine, std::int32_t hint) const {

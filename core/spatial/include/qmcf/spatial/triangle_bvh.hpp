@@ -34,10 +34,10 @@ class TriangleBvh {
     return normals_[static_cast<std::size_t>(place_[static_cast<std::size_t>(triangle)])];
   }
   /// The closest point; ties go to the smallest triangle id. \pre !empty()
-  [[nodiscard]] ClosestPoint closest(const Vec3& query) const;
-  /// As above among triangles whose unit normal n has dot(n, normal) >= minCosine; without any such triangle, as above.
   /// hint: a triangle near the answer, or -1; it changes how long the search takes and nothing else, except that it is
   /// the answer itself if the query lies on it, up to the round-off of the coordinates.
+  [[nodiscard]] ClosestPoint closest(const Vec3& query, std::int32_t hint = -1) const;
+  /// As above among triangles whose unit normal n has dot(n, normal) >= minCosine; without any such triangle, as above.
   [[nodiscard]] ClosestPoint closest(const Vec3& query, const Vec3& normal, double minCosine,
                                      std::int32_t hint = -1) const;
 
@@ -45,10 +45,15 @@ class TriangleBvh {
   struct Node {
     Vec3 low;
     Vec3 high;
-    std::int32_t first = 0;  ///< Leaf: first entry of order_. Inner: left child.
+    std::int32_t first = 0;  ///< Leaf: first entry of order_. Inner: first of its two children.
     std::int32_t count = 0;  ///< Leaf: number of entries. Inner: 0.
-    std::int32_t right = 0;  ///< Inner: right child.
   };
+
+  struct Item;
+
+  static std::int32_t halve(std::vector<Item>& items, std::int32_t first, std::int32_t last);
+  void makeNodes(std::vector<Item>& items);
+  void fitBoxes();
 
   template <class Accept>
   ClosestPoint search(const Vec3& query, std::int32_t hint, Accept accept) const;
