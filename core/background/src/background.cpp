@@ -169,6 +169,7 @@ Result<BackgroundResult> buildBackground(const TriangleMesh& mesh, const Brep& b
   targets.base = size.base;
   targets.gradation = size.gradation;
   targets.relativeSize = options.relativeSize;
+  targets.flatSize = options.flatSize;
   targets.nodeSize = std::move(boundary.nodeSize);
   targets.spacing = std::move(boundary.spacing);
   for (const SizeLimit& limit : size.limits) {

@@ -19,7 +19,9 @@ constexpr double kShortest = 4.0 / 5.0;
 // An edge between two boundary vertices stays if it is shorter than this: there is no room for a vertex on it.
 constexpr double kNarrow = 0.75;
 // Slope of the triangles' lengths away from short boundary edges: steep, since triangles need not fit quads.
-constexpr double kLengthSlope = 0.4;
+constexpr double kLengthSlope = 0.35;
+// By how much the normal may turn along an edge longer than the elements need, in radians.
+constexpr double kTurn = 0.3;
 // A new triangle keeps within this angle's cosine of the smooth surface's normal.
 constexpr double kMinCosine = 0.3;
 // Below this, triangles may not get worse.
@@ -112,17 +114,34 @@ void Remesher::applyLimits() {
 void Remesher::updateSizes() {
   const auto count = index(mesh_.vertexCount());
   size_.assign(count, targets_.base);
-  length_.assign(count, targets_.base * targets_.relativeSize);
+  length_.assign(count, targets_.base * targets_.flatSize);
   for (std::size_t v = 0; v < targets_.nodeSize.size(); ++v) {
     if (mesh_.role[v] == VertexRole::node) size_[v] = std::min(size_[v], targets_.nodeSize[v]);
   }
   applyLimits();
   grade(mesh_, size_, targets_.base, targets_.gradation);
-  for (std::size_t v = 0; v < count; ++v) length_[v] = size_[v] * targets_.relativeSize;
+  for (std::size_t v = 0; v < count; ++v) length_[v] = size_[v] * targets_.flatSize;
+  shortenWhereCurved();
   for (std::size_t v = 0; v < targets_.spacing.size(); ++v) {
-    if (mesh_.role[v] == VertexRole::node) length_[v] = std::min(length_[v], targets_.spacing[v]);
+    if (mesh_.role[v] != VertexRole::node) continue;
+    length_[v] = std::min(size_[v] * targets_.relativeSize, targets_.spacing[v]);
   }
-  grade(mesh_, length_, targets_.base * targets_.relativeSize, kLengthSlope);
+  grade(mesh_, length_, targets_.base * targets_.flatSize, kLengthSlope);
+}
+
+/// Lowers the lengths to where the normal turns little along an edge, down to relativeSize.
+void Remesher::shortenWhereCurved() {
+  for (std::int32_t h = 0; h < mesh_.halfedgeCount(); ++h) {
+    if (mesh_.isRemoved(h) || mesh_.twin(h) > h) continue;
+    const std::int32_t a = mesh_.origin(h);
+    const std::int32_t b = mesh_.target(h);
+    const double turn = norm(mesh_.normal[index(a)] - mesh_.normal[index(b)]);
+    if (!(turn > 0.0)) continue;
+    const double length = kTurn / turn * mesh_.length(h);
+    for (const std::int32_t v : {a, b}) {
+      length_[index(v)] = std::min(length_[index(v)], std::max(length, size_[index(v)] * targets_.relativeSize));
+    }
+  }
 }
 
 double Remesher::edgeLength(std::int32_t a, std::int32_t b) const {

@@ -15,7 +15,8 @@ namespace qmcf {
 struct RemeshTargets {
   double base = 0.0;              ///< Size of the quad mesh away from everything.
   double gradation = 0.2;         ///< Largest slope of the size.
-  double relativeSize = 0.8;      ///< Length of triangle edges in units of the size.
+  double relativeSize = 0.8;      ///< Length of triangle edges in units of the size, at nodes and where it is curved.
+  double flatSize = 1.7;          ///< The same far from the nodes where the face is flat; at least relativeSize.
   std::vector<double> nodeSize;   ///< Per vertex of the mesh: size at nodes, 0 elsewhere.
   std::vector<SizeLimit> limits;  ///< Those inside this face.
   std::vector<double> spacing;    ///< Per vertex of the mesh: distance of nodes to their neighbours, 0 elsewhere.
@@ -35,7 +36,7 @@ class Remesher {
   /// RemeshMesh::renumber() of the mesh and of what is known about its vertices; sizes are to be updated afterwards.
   std::vector<std::int32_t> renumber();
 
-  /// Computes `size` and `length` for all vertices, by gradation from the nodes along the mesh's edges.
+  /// Computes `size` and `length` for all vertices, by gradation from nodes and curved places along the mesh's edges.
   void updateSizes();
   /// Removes boundary points along the boundary where no triangle turns over; returns how many are left.
   std::int32_t removePoints();
@@ -56,6 +57,7 @@ class Remesher {
 
  private:
   void applyLimits();
+  void shortenWhereCurved();
   [[nodiscard]] double edgeLength(std::int32_t a, std::int32_t b) const;
   [[nodiscard]] double quality(std::int32_t a, std::int32_t b, std::int32_t c) const;
   [[nodiscard]] bool tryCollapse(std::int32_t h, std::int32_t removed);

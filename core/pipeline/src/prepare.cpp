@@ -64,7 +64,7 @@ class Preparation {
         result_(std::move(before)),
         progress_(progress),
         sizing_(sizingOptions(options)) {
-    if (options.mode == Mode::qmorph) background_.relativeSize = kMorphTriangleSize;
+    if (options.mode == Mode::qmorph) background_.relativeSize = background_.flatSize = kMorphTriangleSize;
     minimum_.assign(brep.edges.size(), 1);
     done_.assign(brep.faces.size(), !result_.patches.empty());
     changed_.assign(brep.faces.size(), result_.patches.empty());

@@ -14,7 +14,9 @@
 namespace qmcf {
 
 struct BackgroundOptions {
-  double relativeSize = 0.8;    ///< Length of the triangles' edges in units of the size field, in [0.3, 2].
+  double relativeSize = 0.8;  ///< Length of the triangles' edges in units of the size field, in [0.3, 2].
+  /// The same where the face is flat and its edges are far away; at least relativeSize.
+  double flatSize = 1.7;
   std::int32_t iterations = 5;  ///< Rounds of split, collapse, flip, smooth, project; 1 to 50.
 };
 
