@@ -90,8 +90,9 @@ struct TriangleBvh::Item {
   std::int32_t triangle = 0;
 };
 
-/// Halves items[first, last) at the median of its longest axis; ids break ties, so the halves are unique.
-std::int32_t TriangleBvh::halve(std::vector<Item>& items, std::int32_t first, std::int32_t last) {
+/// Divides items[first, last) in the middle of its longest axis, or where that would put less than a quarter on one
+/// side, at the median, where ids break ties, so that the parts are unique.
+std::int32_t TriangleBvh::divide(std::vector<Item>& items, std::int32_t first, std::int32_t last) {
   const auto begin = items.begin() + first;
   const auto end = items.begin() + last;
   Vec3 low = begin->centroid;
@@ -102,21 +103,23 @@ std::int32_t TriangleBvh::halve(std::vector<Item>& items, std::int32_t first, st
     high = {std::max(high.x, c.x), std::max(high.y, c.y), std::max(high.z, c.z)};
   }
   const Vec3 extent = high - low;
-  const auto byComponent = [&](double Vec3::*axis) {
-    std::nth_element(begin, begin + (last - first) / 2, end, [axis](const Item& a, const Item& b) {
+  const auto along = [&](double Vec3::*axis) {
+    const double half = 0.5 * (low.*axis + high.*axis);
+    const auto below = std::partition(begin, end, [&](const Item& item) { return item.centroid.*axis < half; });
+    if (4 * std::min(below - begin, end - below) >= end - begin) return below;
+    const auto median = begin + (end - begin) / 2;
+    std::nth_element(begin, median, end, [axis](const Item& a, const Item& b) {
       return a.centroid.*axis != b.centroid.*axis ? a.centroid.*axis < b.centroid.*axis : a.triangle < b.triangle;
     });
+    return median;
   };
-  if (extent.x >= extent.y && extent.x >= extent.z) {
-    byComponent(&Vec3::x);
-  } else {
-    byComponent(extent.y >= extent.z ? &Vec3::y : &Vec3::z);
-  }
-  return first + (last - first) / 2;
+  const bool isX = extent.x >= extent.y && extent.x >= extent.z;
+  const auto middle = isX ? along(&Vec3::x) : along(extent.y >= extent.z ? &Vec3::y : &Vec3::z);
+  return static_cast<std::int32_t>(middle - items.begin());
 }
 
-/// Halves the items until few enough are left for a leaf each, and puts them into the order of the leaves. Depth first,
-/// so that what is near in space is near in memory.
+/// Divides the items until few enough are left for a leaf each, and puts them into the order of the leaves. Depth
+/// first, so that what is near in space is near in memory.
 void TriangleBvh::makeNodes(std::vector<Item>& items) {
   nodes_.reserve(items.size() + 1);
   nodes_.push_back({{}, {}, 0, static_cast<std::int32_t>(items.size())});
@@ -130,7 +133,7 @@ void TriangleBvh::makeNodes(std::vector<Item>& items) {
                 [](const Item& a, const Item& b) { return a.triangle < b.triangle; });
       continue;
     }
-    const std::int32_t middle = halve(items, first, first + count);
+    const std::int32_t middle = divide(items, first, first + count);
     const std::size_t left = nodes_.size();
     nodes_[n].first = static_cast<std::int32_t>(left);
     nodes_[n].count = 0;
@@ -212,7 +215,7 @@ ClosestPoint TriangleBvh::search(const Vec3& query, std::int32_t hint, Accept ac
       if (best.squaredDistance <= onSurface_) return best;
     }
   }
-  std::array<Entry, 64> stack;  // One entry a level, and halving 2^31 triangles takes fewer than 32 levels.
+  std::array<Entry, 128> stack;  // One entry a level; no child has more than three quarters of at most 2^31 triangles.
   std::size_t top = 0;
   stack[top++] = {0, 0.0};
   while (top > 0) {

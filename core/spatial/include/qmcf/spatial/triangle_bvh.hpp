@@ -51,7 +51,7 @@ class TriangleBvh {
 
   struct Item;
 
-  static std::int32_t halve(std::vector<Item>& items, std::int32_t first, std::int32_t last);
+  static std::int32_t divide(std::vector<Item>& items, std::int32_t first, std::int32_t last);
   void makeNodes(std::vector<Item>& items);
   void fitBoxes();
 
