@@ -15,18 +15,20 @@ std::vector<HalfedgeId> frontEdgesAt(const FrontMesh& front, VertexId v) {
 }
 
 int oddLoops(const FrontMesh& front, const std::vector<HalfedgeId>& edges) {
-  std::vector<HalfedgeId> seen;
-  int odd = 0;
+  std::vector<HalfedgeId> left;  // Edges of loops that have not been counted yet.
   for (const HalfedgeId h : edges) {
-    if (!front.isFront(h)) continue;
-    HalfedgeId smallest = h;
-    int length = 1;
-    for (HalfedgeId e = front.nextFront(h); e != h; e = front.nextFront(e)) {
-      smallest = std::min(smallest, e);
+    if (front.isFront(h)) left.push_back(h);
+  }
+  int odd = 0;
+  while (!left.empty()) {
+    const HalfedgeId first = left.back();
+    HalfedgeId h = first;
+    int length = 0;
+    do {
+      left.erase(std::remove(left.begin(), left.end(), h), left.end());
+      h = front.nextFront(h);
       ++length;
-    }
-    if (std::find(seen.begin(), seen.end(), smallest) != seen.end()) continue;
-    seen.push_back(smallest);
+    } while (h != first);
     odd += length % 2;
   }
   return odd;
