@@ -2,6 +2,7 @@
 #include "side_edge.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "qmcf/base/math.hpp"
@@ -69,28 +70,54 @@ Trace traceSide(const FrontMesh& front, VertexId a, const Vec3& ideal, double fi
   return trace;
 }
 
+constexpr std::size_t kMaxFaces = 60;
+
+/// Up to kMaxFaces faces, each once, in the order in which they were added.
+class FewFaces {
+ public:
+  FewFaces() { slots_.fill(kNone); }
+  void add(FaceId f) {
+    // Open addressing; three quarters of the slots stay free.
+    std::size_t slot = f.index() % slots_.size();
+    while (slots_[slot] != kNone) {
+      if (slots_[slot] == f.value) return;
+      slot = (slot + 1) % slots_.size();
+    }
+    slots_[slot] = f.value;
+    faces_[size_++] = f;
+  }
+  [[nodiscard]] std::size_t size() const { return size_; }
+  [[nodiscard]] FaceId operator[](std::size_t i) const { return faces_[i]; }
+
+ private:
+  std::array<std::int32_t, 256> slots_;
+  std::array<FaceId, kMaxFaces + 3> faces_;  // The sides of the last face looked at may be three too many.
+  std::size_t size_ = 0;
+};
+
 /// Front nodes near a point of the open region, found through the open faces around it.
 std::vector<VertexId> frontNodesNear(const FrontMesh& front, FaceId start, const Vec3& point, double radius) {
   const EditMesh& mesh = front.mesh();
-  constexpr std::size_t kMaxFaces = 60;
-  std::vector<FaceId> faces{start};
+  FewFaces faces;
+  faces.add(start);
   std::vector<VertexId> nodes;
+  const double reach = radius * radius;
   for (std::size_t i = 0; i < faces.size() && faces.size() < kMaxFaces; ++i) {
     const HalfedgeId first = mesh.halfedge(faces[i]);
     HalfedgeId h = first;
     do {
+      const HalfedgeId next = mesh.next(h);
       const VertexId v = mesh.origin(h);
-      const bool near = distance(mesh.position(v), point) < radius;
-      if (near && !front.isFree(v) && std::find(nodes.begin(), nodes.end(), v) == nodes.end()) nodes.push_back(v);
-      // Distance of the edge's nearest point, to decide whether to look beyond it.
-      const Vec3 p = mesh.position(v);
-      const Vec3 q = mesh.position(mesh.target(h));
-      const double along = std::clamp(dot(point - p, q - p) / std::max(squaredNorm(q - p), 1e-300), 0.0, 1.0);
-      if (!front.isFront(h) && distance(p + (q - p) * along, point) < radius) {
-        const FaceId other = mesh.face(mesh.twin(h));
-        if (std::find(faces.begin(), faces.end(), other) == faces.end()) faces.push_back(other);
+      const Vec3& p = mesh.position(v);
+      const bool near = squaredNorm(point - p) < reach;
+      if (near && std::find(nodes.begin(), nodes.end(), v) == nodes.end() && !front.isFree(v)) nodes.push_back(v);
+      if (!front.isFront(h)) {
+        // Distance of the edge's nearest point, to decide whether to look beyond it.
+        const Vec3& q = mesh.position(mesh.origin(next));
+        const double along = std::clamp(dot(point - p, q - p) / std::max(squaredNorm(q - p), 1e-300), 0.0, 1.0);
+        if (squaredNorm(point - (p + (q - p) * along)) < reach) faces.add(mesh.face(mesh.twin(h)));
       }
-      h = mesh.next(h);
+      h = next;
     } while (h != first);
   }
   return nodes;
