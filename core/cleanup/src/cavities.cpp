@@ -194,7 +194,7 @@ bool TopologicalCleanup::remeshCavity(VertexId seed) {
 bool TopologicalCleanup::fillCavity(const std::vector<HalfedgeId>& loop, const std::vector<int>& corners) {
   const std::vector<FaceId>& cavity = cavity_.faces();
   int energy = 0;
-  for (const VertexId v : cornersOf(mesh_, cavity)) energy += irregularity(mesh_.isBoundary(v), excess(v));
+  for (const VertexId v : cavity_.vertices(mesh_)) energy += irregularity(mesh_.isBoundary(v), excess(v));
   const std::size_t triangles = triangleCount(mesh_, cavity);
   energy += kTriangleEnergy * static_cast<int>(triangles);
   if (triangles % 2 != 0 || energy <= (corners.size() == 4 ? 0 : 1)) return false;
@@ -234,13 +234,21 @@ std::vector<EditMesh::Vertex> TopologicalCleanup::innerVertices(const SidePatter
                                                                 const RelaxationTarget& rough) const {
   // The old inner vertices are good places to project from.
   const std::vector<VertexId> old = cornersOf(mesh_, cavity_.faces());
+  std::vector<Vec3> places;
+  places.reserve(old.size());
+  for (const VertexId v : old) places.push_back(mesh_.position(v));
   std::vector<EditMesh::Vertex> inner;
   inner.reserve(pattern.inner.size());
   for (const Vec3& p : pattern.inner) {
-    const auto nearest = std::min_element(old.begin(), old.end(), [&](VertexId a, VertexId b) {
-      return squaredNorm(mesh_.position(a) - p) < squaredNorm(mesh_.position(b) - p);
-    });
-    inner.push_back(projectVertex(rough, mesh_.vertex(*nearest), p));
+    std::size_t nearest = 0;
+    double least = squaredNorm(places[0] - p);
+    for (std::size_t i = 1; i < places.size(); ++i) {
+      const double square = squaredNorm(places[i] - p);
+      if (!(square < least)) continue;
+      least = square;
+      nearest = i;
+    }
+    inner.push_back(projectVertex(rough, mesh_.vertex(old[nearest]), p));
   }
   return inner;
 }

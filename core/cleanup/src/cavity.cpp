@@ -36,6 +36,17 @@ std::optional<std::vector<HalfedgeId>> Cavity::boundaryLoop(const EditMesh& mesh
   return loop;
 }
 
+const std::vector<VertexId>& Cavity::vertices(const EditMesh& mesh) {
+  met_.clear();
+  vertices_.clear();
+  for (const FaceId f : faces_) {
+    for (const HalfedgeId h : mesh.sides(f)) {
+      if (h.valid() && met_.insert(mesh.origin(h))) vertices_.push_back(mesh.origin(h));
+    }
+  }
+  return vertices_;
+}
+
 int Cavity::countAround(const EditMesh& mesh, VertexId v) const {
   int count = 0;
   mesh.forEachOutgoing(v, [&](HalfedgeId h) { count += contains(mesh.face(h)) ? 1 : 0; });

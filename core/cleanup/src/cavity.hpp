@@ -51,6 +51,8 @@ class Cavity {
   [[nodiscard]] std::uint64_t signature() const { return signature_; }
   /// The boundary as one loop without repeated vertices, or nothing.
   [[nodiscard]] std::optional<std::vector<HalfedgeId>> boundaryLoop(const EditMesh& mesh);
+  /// The vertices of the faces, each once, in the order in which they are met.
+  [[nodiscard]] const std::vector<VertexId>& vertices(const EditMesh& mesh);
   /// Elements of the cavity around a vertex.
   [[nodiscard]] int countAround(const EditMesh& mesh, VertexId v) const;
 
@@ -59,6 +61,8 @@ class Cavity {
   std::uint64_t signature_ = 0;
   IdSet<FaceId> inside_;
   IdSet<VertexId> onLoop_;
+  IdSet<VertexId> met_;
+  std::vector<VertexId> vertices_;
 };
 
 /// The vertices of the faces, ascending.

@@ -142,7 +142,7 @@ bool TopologicalCleanup::refill() {
   std::vector<VertexId> vertices;
   std::vector<int> outside;
   int energyBefore = kTriangleEnergy * static_cast<int>(triangles);
-  for (const VertexId v : cornersOf(mesh_, cavity_.faces())) {
+  for (const VertexId v : cavity_.vertices(mesh_)) {
     energyBefore += irregularity(mesh_.isBoundary(v), excess(v));
   }
   for (const HalfedgeId h : *loop) {

@@ -44,7 +44,9 @@ class Advance {
   void startFronts();
   /// What the next commit will be, for the trace.
   void note(TraceKind kind, HalfedgeId base, int pass);
-  void enqueue(HalfedgeId h);
+  /// wantedLeft, wantedRight: the quads wanted at both ends of the edge.
+  void enqueue(HalfedgeId h, int wantedLeft, int wantedRight);
+  void enqueue(HalfedgeId h) { enqueue(h, front_.wantedQuads(h), front_.wantedQuads(front_.nextFront(h))); }
   void enqueueAround(const std::vector<VertexId>& vertices);
   bool advanceFrom(HalfedgeId h, int pass);
   std::vector<SideProposal> sides(HalfedgeId sector, int wanted, bool left, const std::optional<Vec3>& closure,
@@ -72,9 +74,7 @@ void Advance::note(TraceKind kind, HalfedgeId base, int pass) {
   if (trace_ != nullptr) trace_->next(kind, mesh().origin(base).value, mesh().target(base).value, pass);
 }
 
-void Advance::enqueue(HalfedgeId h) {
-  const int wantedLeft = front_.wantedQuads(h);
-  const int wantedRight = front_.wantedQuads(front_.nextFront(h));
+void Advance::enqueue(HalfedgeId h, int wantedLeft, int wantedRight) {
   const bool seam = wantedLeft == 0 || wantedRight == 0;
   const int open = (wantedLeft > 1 ? 1 : 0) + (wantedRight > 1 ? 1 : 0);
   queue_.push(h, seam ? -1 : level(h), open);
@@ -91,7 +91,17 @@ void Advance::enqueueAround(const std::vector<VertexId>& vertices) {
   }
   std::sort(edges.begin(), edges.end());
   edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
-  for (const HalfedgeId h : edges) enqueue(h);
+  // Most of them follow each other, so that each number is asked for by two.
+  constexpr int kUnknown = -1;
+  std::vector<int> wanted(edges.size(), kUnknown);
+  const auto wantedAt = [&](HalfedgeId h) {
+    const auto at = std::lower_bound(edges.begin(), edges.end(), h);
+    if (at == edges.end() || *at != h) return front_.wantedQuads(h);
+    int& known = wanted[static_cast<std::size_t>(at - edges.begin())];
+    if (known == kUnknown) known = front_.wantedQuads(h);
+    return known;
+  };
+  for (const HalfedgeId h : edges) enqueue(h, wantedAt(h), wantedAt(front_.nextFront(h)));
 }
 
 VertexId Advance::realize(HalfedgeId sector, const SideProposal& side) {

@@ -84,11 +84,14 @@ class FewInts {
 /// Twice the length of spoke i. Side j is as long as spokes j - 1 and j + 1 together; going round in steps of two, all
 /// other spokes cancel.
 int twiceSpoke(const FewInts& sides, std::size_t i) {
+  const std::size_t k = sides.size();
   int sum = 0;
   int sign = 1;
-  for (std::size_t step = 0; step < sides.size(); ++step) {
-    sum += sign * sides[(i + 1 + 2 * step) % sides.size()];
+  std::size_t side = i + 1 < k ? i + 1 : 0;
+  for (std::size_t step = 0; step < k; ++step) {
+    sum += sign * sides[side];
     sign = -sign;
+    side = side + 2 < k ? side + 2 : side + 2 - k;
   }
   return sum;
 }
@@ -247,11 +250,11 @@ struct Range {
 void narrow(Range& range, Part& part) {
   part.setCut(0);
   const FewInts sides = part.sides();
-  FewInts onlyCut(sides.size());
-  onlyCut[sides.size() - 1] = 1;
   for (std::size_t i = 0; i < sides.size(); ++i) {
     const int room = twiceSpoke(sides, i) - leastTwiceSpoke(sides, i, true);
-    if (twiceSpoke(onlyCut, i) > 0) {
+    // Whether the last side is reached from side i + 1 by an even number of steps of two: then it counts for the spoke.
+    const std::size_t ahead = sides.size() - 1 - (i + 1) % sides.size();
+    if ((ahead % 2 == 0 ? ahead / 2 : (ahead + sides.size()) / 2) % 2 == 0) {
       range.least = std::max(range.least, -room);
     } else {
       range.most = std::min(range.most, room);
@@ -283,8 +286,9 @@ std::optional<Filling> fillingOf(const Part& part, double h, double most) {
     middle = part.position(part.corners().back() + filling.centreOnCut);
   }
   for (std::size_t i = 0; i < k; ++i) {
-    const int before = spokes[(i + k - 1) % k];
-    const int split = (part.corners()[i] + before) % part.count();
+    const int before = i > 0 ? spokes[i - 1] : spokes.back();
+    const int past = part.corners()[i] + before;
+    const int split = past < part.count() ? past : past - part.count();
     filling.cells += before * spokes[i];
     if (spokes[i] > 0) filling.misfit += misfit(distance(part.position(split), middle), spokes[i], h);
     if (filling.misfit >= most) return std::nullopt;
