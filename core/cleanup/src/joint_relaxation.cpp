@@ -29,7 +29,7 @@ constexpr double kStill = 1e-3;
 /// Chords that are nearer to their edge than this, in element sizes, may depart further.
 constexpr double kNear = 0.05;
 /// Vertices so many elements away from a moved node are relaxed with it.
-constexpr int kRings = 4;
+constexpr int kRings = 2;
 constexpr int kSlidesPerRound = 3;
 constexpr int kSweepsPerRound = 3;
 

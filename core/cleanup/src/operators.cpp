@@ -134,6 +134,15 @@ bool TopologicalCleanup::collapseDiagonal(HalfedgeId corner) {
 bool TopologicalCleanup::refill() {
   const std::size_t triangles = triangleCount(mesh_, cavity_.faces());
   if (triangles % 2 != 0) return false;
+  int energyBefore = kTriangleEnergy * static_cast<int>(triangles);
+  // What decides which ways are better: the faces and the elements around their vertices.
+  std::uint64_t signature = cavity_.signature();
+  for (const VertexId v : cavity_.vertices(mesh_)) {
+    const int off = excess(v);
+    energyBefore += irregularity(mesh_.isBoundary(v), off);
+    signature += Random(static_cast<std::uint64_t>(off) + (static_cast<std::uint64_t>(v.index()) << 32U)).next();
+  }
+  if (!triedRefills_.insert(signature).second) return false;
   const auto loop = cavity_.boundaryLoop(mesh_);
   if (!loop) return false;
   const auto length = static_cast<int>(loop->size());
@@ -141,10 +150,6 @@ bool TopologicalCleanup::refill() {
   if (ways.empty()) return false;
   std::vector<VertexId> vertices;
   std::vector<int> outside;
-  int energyBefore = kTriangleEnergy * static_cast<int>(triangles);
-  for (const VertexId v : cavity_.vertices(mesh_)) {
-    energyBefore += irregularity(mesh_.isBoundary(v), excess(v));
-  }
   for (const HalfedgeId h : *loop) {
     const VertexId v = mesh_.origin(h);
     vertices.push_back(v);
@@ -152,6 +157,8 @@ bool TopologicalCleanup::refill() {
   }
   std::vector<std::pair<int, std::size_t>> better;
   std::optional<bool> isPoor;  // Known when first asked for: it takes longer than all the rest.
+  std::vector<char> isBoundary(vertices.size() + 1, 0);
+  for (std::size_t i = 0; i < vertices.size(); ++i) isBoundary[i] = mesh_.isBoundary(vertices[i]) ? 1 : 0;
   std::vector<int> count;
   for (std::size_t w = 0; w < ways.size(); ++w) {
     count = outside;
@@ -161,7 +168,7 @@ bool TopologicalCleanup::refill() {
     }
     int energy = 0;
     for (std::size_t i = 0; i < count.size(); ++i) {
-      energy += irregularity(i < vertices.size() && mesh_.isBoundary(vertices[i]), count[i]);
+      energy += irregularity(isBoundary[i] != 0, count[i]);
     }
     if (energy == energyBefore && !isPoor) isPoor = worstOf(mesh_, cavity_.faces()) < kPoor;
     if (energy < energyBefore || (energy == energyBefore && *isPoor)) better.emplace_back(energy, w);

@@ -78,6 +78,8 @@ class TopologicalCleanup {
   Cavity cavity_;             ///< The region being looked at.
   /// Signatures of cavities that no pattern was found for. Their faces have other ids once something changes there.
   std::unordered_set<std::uint64_t> triedCavities_;
+  /// Likewise of small ones, and of the elements around their vertices.
+  std::unordered_set<std::uint64_t> triedRefills_;
   std::vector<VertexId> touched_;  ///< See takeTouched().
 };
 

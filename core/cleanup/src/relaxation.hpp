@@ -38,7 +38,7 @@ class LazyRelaxation {
   void land();
   /// To be called after a change of the mesh with the vertices that it touched; new ones are awake.
   void wake(const std::vector<VertexId>& vertices);
-  /// As relax(), for the vertices that are awake. Returns false once nothing moves by more than a two-hundredth of the
+  /// As relax(), for the vertices that are awake. Returns false once nothing moves by more than a hundredth of the
   /// element size.
   bool sweep();
 
