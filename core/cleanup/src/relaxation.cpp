@@ -23,7 +23,7 @@ Vec3 idealCorner(const EditMesh& mesh, HalfedgeId h, const Vec3& normal, double 
   const auto corner = [&mesh](HalfedgeId e) -> const Vec3& { return mesh.position(mesh.origin(e)); };
   const HalfedgeId second = mesh.next(h);
   const HalfedgeId third = mesh.next(second);
-  const HalfedgeId fourth = mesh.next(third);
+  const HalfedgeId last = mesh.prev(h);
   const Vec3& p0 = corner(h);
   const Vec3& p1 = corner(second);
   const Vec3& p2 = corner(third);
@@ -32,13 +32,13 @@ Vec3 idealCorner(const EditMesh& mesh, HalfedgeId h, const Vec3& normal, double 
   Vec3 centre;
   Vec3 arm;
   double wanted = size;
-  if (fourth == h) {
+  if (third == last) {
     constexpr double kSine = 0.8660254037844386;
     centre = (p0 + p1 + p2) / 3.0;
     arm = (tangentPart(p0 - (p1 + p2) * 0.5, normal) + cross(p1 - p2, normal) * kSine) / 3.0;
     wanted *= 0.6;
   } else {
-    const Vec3& p3 = corner(fourth);
+    const Vec3& p3 = corner(last);
     centre = (p0 + p1 + p2 + p3) * 0.25;
     arm = (tangentPart(p0 - p2, normal) + cross(p1 - p3, normal)) * 0.25;
     wanted *= 0.7071067811865476;

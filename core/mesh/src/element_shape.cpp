@@ -22,10 +22,8 @@ bool isClearlyUpright(const Vec3& v, const Vec3& normal) {
 }
 
 /// Whether a quad's shape is at least `least` by a margin. No square roots, no divisions.
-bool isClearlyWellShaped(const EditMesh& mesh, const std::array<HalfedgeId, 4>& sides, double least) {
-  std::array<VertexId, 4> corners;
-  for (std::size_t i = 0; i < 4; ++i) corners[i] = mesh.origin(sides[i]);
-  const auto p = [&](std::size_t i) -> const Vec3& { return mesh.position(corners[i]); };
+bool isClearlyWellShaped(const std::array<const EditMesh::Vertex*, 4>& corners, double least) {
+  const auto p = [&](std::size_t i) -> const Vec3& { return corners[i]->position; };
   const std::array<Vec3, 4> side{p(1) - p(0), p(2) - p(1), p(3) - p(2), p(0) - p(3)};
   const std::array<double, 4> square{squaredNorm(side[0]), squaredNorm(side[1]), squaredNorm(side[2]),
                                      squaredNorm(side[3])};
@@ -36,7 +34,7 @@ bool isClearlyWellShaped(const EditMesh& mesh, const std::array<HalfedgeId, 4>& 
     const Vec3 corner = cross(side[before], side[i]);
     const double along = dot(corner, normal);
     if (!(along > 0.0) || !(along * along > enough * square[i] * square[before])) return false;
-    if (!isClearlyUpright(corner, mesh.normal(corners[i]))) return false;
+    if (!isClearlyUpright(corner, corners[i]->normal)) return false;
   }
   return true;
 }
@@ -113,14 +111,17 @@ double worstShapeAround(const EditMesh& mesh, VertexId v) {
 }
 
 bool isWellShapedAround(const EditMesh& mesh, VertexId v, double least) {
+  const auto corner = [&mesh](HalfedgeId h) { return &mesh.vertex(mesh.origin(h)); };
   const HalfedgeId first = mesh.outgoing(v);
   HalfedgeId h = first;
   do {
-    const FaceId f = mesh.face(h);
-    const auto sides = mesh.sides(f);
-    const bool isClear = sides[3].valid() && isClearlyWellShaped(mesh, sides, least);
-    if (!isClear && !(faceShape(mesh, f) >= least)) return false;
-    h = mesh.nextAround(h);
+    const HalfedgeId last = mesh.prev(h);
+    const HalfedgeId second = mesh.next(h);
+    const HalfedgeId third = mesh.next(second);
+    const bool isClear =
+        third != last && isClearlyWellShaped({&mesh.vertex(v), corner(second), corner(third), corner(last)}, least);
+    if (!isClear && !(faceShape(mesh, mesh.face(h)) >= least)) return false;
+    h = mesh.twin(last);
   } while (h.valid() && h != first);
   return true;
 }
