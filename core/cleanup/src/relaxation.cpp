@@ -118,7 +118,10 @@ bool LazyRelaxation::sweep() {
   for (const VertexId v : IdRange<VertexId>(awake_.size())) {
     if (awake_[v] == 0) continue;
     awake_[v] = 0;
-    if (!mesh_.alive(v) || mesh_.isBoundary(v) || relaxVertex(mesh_, v, target_, enough_) <= kStill) continue;
+    if (!mesh_.alive(v) || mesh_.isBoundary(v)) continue;
+    const double move = relaxVertex(mesh_, v, target_, enough_);
+    mesh_.commitUnwatched();
+    if (move <= kStill) continue;
     isStill = false;
     mesh_.forEachOutgoing(v, [&](HalfedgeId h) {
       for (HalfedgeId e = mesh_.next(h); e != h; e = mesh_.next(e)) awake_[mesh_.origin(e)] = 1;

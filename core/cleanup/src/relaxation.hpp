@@ -39,7 +39,7 @@ class LazyRelaxation {
   /// To be called after a change of the mesh with the vertices that it touched; new ones are awake.
   void wake(const std::vector<VertexId>& vertices);
   /// As relax(), for the vertices that are awake. Returns false once nothing moves by more than a hundredth of the
-  /// element size.
+  /// element size. Earlier marks of the mesh become invalid.
   bool sweep();
 
  private:

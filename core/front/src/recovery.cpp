@@ -205,7 +205,7 @@ VertexId insertVertex(FrontMesh& front, HalfedgeId sector, const EditMesh::Verte
 
 void makeDelaunay(FrontMesh& front, const std::vector<VertexId>& around) {
   EditMesh& mesh = front.mesh();
-  std::deque<HalfedgeId> queue;
+  std::vector<HalfedgeId> queue;
   for (const VertexId v : around) {
     if (!mesh.alive(v)) continue;
     mesh.forEachOutgoing(v, [&](HalfedgeId h) {
@@ -214,9 +214,8 @@ void makeDelaunay(FrontMesh& front, const std::vector<VertexId>& around) {
       queue.push_back(mesh.next(h));
     });
   }
-  for (int step = 0; !queue.empty() && step < kMaxSwaps; ++step) {
-    const HalfedgeId h = queue.front();
-    queue.pop_front();
+  for (std::size_t step = 0; step < queue.size() && step < kMaxSwaps; ++step) {
+    const HalfedgeId h = queue[step];
     if (!mesh.alive(h) || !mesh.isOpen(h) || front.isFront(h)) continue;
     const HalfedgeId t = mesh.twin(h);
     const Vec3 a = mesh.position(mesh.origin(h));

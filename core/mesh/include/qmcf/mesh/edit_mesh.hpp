@@ -141,6 +141,11 @@ class EditMesh {
     savedVertices_.clear();
   }
 
+  /// commit() where nobody is told: keeps the journal of many small edits short.
+  void commitUnwatched() {
+    if (watcher_ == nullptr) commit();
+  }
+
   /// Who is told of commits; nullptr: nobody. It must outlive the mesh.
   void watch(Watcher* watcher) { watcher_ = watcher; }
   /// What the journal holds, ascending: faces that changed in kind or corners, vertices that moved. Some may be back as
