@@ -1,9 +1,11 @@
 #include "operators.hpp"
 
 #include <algorithm>
+#include <cstdint>
 #include <optional>
 
 #include "cavity.hpp"
+#include "qmcf/base/random.hpp"
 #include "qmcf/mesh/element_shape.hpp"
 #include "qmcf/mesh/loop_fillings.hpp"
 
