@@ -40,6 +40,19 @@ Vec3 bisectorDirection(const FrontMesh& front, const SideRequest& request) {
   return normalized(plane.vector(Vec2{c * first.x - s * first.y, s * first.x + c * first.y}));
 }
 
+/// A side is no longer and no shorter than the front edges that it starts from by more than these factors: a row that
+/// the size field wants much higher than its edges are long is made of elements that nothing can make square later.
+constexpr double kLongestSide = 1.4;
+constexpr double kShortestSide = 0.9;
+
+/// Mean length of the two front edges at a sector.
+double frontLength(const FrontMesh& front, HalfedgeId sector) {
+  const EditMesh& mesh = front.mesh();
+  const Vec3& at = mesh.position(mesh.origin(sector));
+  const Vec3& before = mesh.position(mesh.origin(front.previousFront(sector)));
+  return 0.5 * (distance(at, mesh.position(mesh.target(sector))) + distance(at, before));
+}
+
 /// How a side edge runs: direction at its start and a point of the given length along it.
 struct Trace {
   Vec3 direction;
@@ -48,9 +61,13 @@ struct Trace {
 };
 
 /// Weighted combination of field and bisector, followed for one element by a midpoint step.
-Trace traceSide(const FrontMesh& front, VertexId a, const Vec3& ideal, double fieldWeight) {
-  const EditMesh::Vertex& start = front.mesh().vertex(a);
-  const double h = front.sizeAt(start.location);
+Trace traceSide(const FrontMesh& front, HalfedgeId sector, const Vec3& ideal, double fieldWeight) {
+  const EditMesh::Vertex& start = front.mesh().vertex(front.mesh().origin(sector));
+  const double base = frontLength(front, sector);
+  const auto sizeAt = [&](const SurfacePoint& at) {
+    return std::clamp(front.sizeAt(at), kShortestSide * base, kLongestSide * base);
+  };
+  const double h = sizeAt(start.location);
   const auto towards = [&](const SurfacePoint& at, const Vec3& normal, const Vec3& direction, double weight) {
     const Vec3 c = normalized(tangentPart(front.crossNear(at, direction), normal));
     return normalized(tangentPart(c * weight + direction * (1.0 - weight), normal));
@@ -66,7 +83,7 @@ Trace traceSide(const FrontMesh& front, VertexId a, const Vec3& ideal, double fi
   const EditMesh::Vertex middle = front.vertexNear(start.location, start.position + d1 * (0.5 * h));
   trace.direction = towards(middle.location, start.normal, d1, weight);
   trace.end = front.vertexNear(middle.location, start.position + trace.direction * h);
-  trace.length = 0.5 * (h + front.sizeAt(trace.end.location));
+  trace.length = 0.5 * (h + sizeAt(trace.end.location));
   return trace;
 }
 
@@ -130,7 +147,7 @@ std::vector<SideProposal> proposeSide(const FrontMesh& front, const SideRequest&
   const VertexId a = mesh.origin(request.sector);
   const Vec3 position = mesh.position(a);
   const Vec3 normal = mesh.normal(a);
-  Trace trace = traceSide(front, a, bisectorDirection(front, request), options.fieldWeight);
+  Trace trace = traceSide(front, request.sector, bisectorDirection(front, request), options.fieldWeight);
   if (request.closure) {
     const Vec3 blended = (trace.end.position - position + *request.closure - position) * 0.5;
     trace.direction = normalized(tangentPart(blended, normal));
