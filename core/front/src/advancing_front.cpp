@@ -6,6 +6,7 @@
 #include <array>
 #include <vector>
 
+#include "failed_attempts.hpp"
 #include "front_queue.hpp"
 #include "qmcf/front/extract.hpp"
 #include "qmcf/front/front_mesh.hpp"
@@ -26,6 +27,7 @@ constexpr std::array<double, 3> kLeastQuad{0.3, 0.12, 0.03};
 constexpr std::array<double, 3> kShortest{0.4, 0.25, 0.0};
 constexpr std::array<double, 3> kLongest{1.9, 2.8, 6.0};
 constexpr int kPasses = static_cast<int>(kLeastQuad.size());
+static_assert(kLeastQuad.size() == FailedAttempts::kPasses);
 constexpr std::size_t kMaxAttempts = 6;
 /// After so many successes per failure the failures are tried again: often enough to catch what became possible, seldom
 /// enough for a front with thousands of them.
@@ -48,9 +50,13 @@ class Advance {
   void enqueue(HalfedgeId h, int wantedLeft, int wantedRight);
   void enqueue(HalfedgeId h) { enqueue(h, front_.wantedQuads(h), front_.wantedQuads(front_.nextFront(h))); }
   void enqueueAround(const std::vector<VertexId>& vertices);
+  void commit();
   bool advanceFrom(HalfedgeId h, int pass);
   std::vector<SideProposal> sides(HalfedgeId sector, int wanted, bool left, const std::optional<Vec3>& closure,
                                   int pass) const;
+  FaceId form(HalfedgeId base, const SideProposal& left, const SideProposal& right, int pass);
+  std::vector<VertexId> cornersOf(FaceId f) const;
+  std::vector<HalfedgeId> edgesAt(const std::vector<VertexId>& vertices) const;
   bool tryQuad(HalfedgeId base, const SideProposal& left, const SideProposal& right, int pass);
   VertexId realize(HalfedgeId sector, const SideProposal& side);
   bool fitsSize(VertexId a, VertexId b, int pass) const;
@@ -67,6 +73,8 @@ class Advance {
   FrontStatistics statistics_;
   FrontQueue queue_;
   std::vector<std::int32_t> levels_;
+  FailedAttempts attempts_;
+  bool wasOdd_ = false;   ///< The last attempt failed because of loops, which reach far.
   TraceRecorder* trace_;  ///< nullptr: nobody wants the history.
 };
 
@@ -83,12 +91,7 @@ void Advance::enqueue(HalfedgeId h, int wantedLeft, int wantedRight) {
 }
 
 void Advance::enqueueAround(const std::vector<VertexId>& vertices) {
-  std::vector<HalfedgeId> edges;
-  for (const VertexId v : vertices) {
-    if (!mesh().alive(v)) continue;
-    const auto at = frontEdgesAt(front_, v);
-    edges.insert(edges.end(), at.begin(), at.end());
-  }
+  std::vector<HalfedgeId> edges = edgesAt(vertices);
   std::sort(edges.begin(), edges.end());
   edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
   // Most of them follow each other, so that each number is asked for by two.
@@ -102,6 +105,11 @@ void Advance::enqueueAround(const std::vector<VertexId>& vertices) {
     return known;
   };
   for (const HalfedgeId h : edges) enqueue(h, wantedAt(h), wantedAt(front_.nextFront(h)));
+}
+
+void Advance::commit() {
+  attempts_.noteChange(mesh());
+  mesh().commit();
 }
 
 VertexId Advance::realize(HalfedgeId sector, const SideProposal& side) {
@@ -136,7 +144,7 @@ bool Advance::advanceFrom(HalfedgeId h, int pass) {
     const auto faces = closeLoop(front_, h, length, kLeastQuad[static_cast<std::size_t>(pass)]);
     if (!faces.empty()) {
       statistics_.quads += static_cast<std::int64_t>(faces.size());
-      m.commit();
+      commit();
       return true;
     }
     if (length == 4) return false;
@@ -151,7 +159,7 @@ bool Advance::advanceFrom(HalfedgeId h, int pass) {
     ++statistics_.seams;
     makeDelaunay(front_, {kept});
     relaxAround({kept});
-    m.commit();
+    commit();
     std::vector<VertexId> around{kept};
     for (const HalfedgeId e : frontEdgesAt(front_, kept)) {
       around.push_back(m.origin(e));
@@ -187,85 +195,94 @@ bool Advance::advanceFrom(HalfedgeId h, int pass) {
   return false;
 }
 
-bool Advance::tryQuad(HalfedgeId base, const SideProposal& left, const SideProposal& right, int pass) {
+std::vector<VertexId> Advance::cornersOf(FaceId f) const {
+  std::vector<VertexId> corners;
+  for (const HalfedgeId h : front_.mesh().sides(f)) {
+    if (h.valid()) corners.push_back(front_.mesh().origin(h));
+  }
+  return corners;
+}
+
+/// The front edges at those of the vertices that there are.
+std::vector<HalfedgeId> Advance::edgesAt(const std::vector<VertexId>& vertices) const {
+  std::vector<HalfedgeId> edges;
+  for (const VertexId v : vertices) {
+    if (!v.valid() || !front_.mesh().alive(v)) continue;
+    const auto at = frontEdgesAt(front_, v);
+    edges.insert(edges.end(), at.begin(), at.end());
+  }
+  return edges;
+}
+
+/// Makes the quad on a front edge with the given sides; an invalid id, with the mesh changed, where that can't be.
+FaceId Advance::form(HalfedgeId base, const SideProposal& left, const SideProposal& right, int pass) {
   EditMesh& m = mesh();
   const HalfedgeId following = front_.nextFront(base);
-  const HalfedgeId previous = front_.previousFront(base);
   const VertexId a = m.origin(base);
   const VertexId b = m.target(base);
-  const bool leftThere = left.existing.valid() && left.existing == m.origin(previous);
+  const bool leftThere = left.existing.valid() && left.existing == m.origin(front_.previousFront(base));
   const bool rightThere = right.existing.valid() && right.existing == m.target(following);
+  const VertexId d = realize(base, left);
+  if (!d.valid()) return {};
+  if (!leftThere && !recoverEdge(front_, base, d).valid()) return {};
+  const VertexId c = realize(following, right);
+  if (!c.valid() || c == d) return {};
+  if (!leftThere && !fitsSize(a, d, pass)) return {};
+  if (!rightThere && !fitsSize(b, c, pass)) return {};
+  if (!fitsSize(c, d, pass)) return {};
+  if (!rightThere && !recoverEdge(front_, following, c).valid()) return {};
+  const HalfedgeId downwards = m.find(d, a);
+  if (!downwards.valid() || !m.isOpen(downwards)) return {};
+  const HalfedgeId top = m.find(c, d);
+  if (!(top.valid() && m.isOpen(top)) && !recoverEdge(front_, downwards, c).valid()) return {};
+  return formElement(front_, {a, b, c, d}, kLeastQuad[static_cast<std::size_t>(pass)]).value_or(FaceId());
+}
+
+bool Advance::tryQuad(HalfedgeId base, const SideProposal& left, const SideProposal& right, int pass) {
+  EditMesh& m = mesh();
+  const bool leftThere = left.existing.valid() && left.existing == m.origin(front_.previousFront(base));
+  const bool rightThere = right.existing.valid() && right.existing == m.target(front_.nextFront(base));
   const bool joins =
       (left.existing.valid() && !leftThere) || (right.existing.valid() && !rightThere) || (leftThere && rightThere);
   if (left.existing.valid() && left.existing == right.existing) return false;
 
-  std::vector<HalfedgeId> touched{base};
-  int oddBefore = 0;
-  if (joins) {
-    for (const VertexId v : {left.existing, right.existing}) {
-      if (!v.valid()) continue;
-      const auto at = frontEdgesAt(front_, v);
-      touched.insert(touched.end(), at.begin(), at.end());
-    }
-    oddBefore = oddLoops(front_, touched);
-  }
-
   const std::size_t mark = m.mark();
   const std::int32_t baseLevel = level(base);
-  const auto undo = [&] {
+  FaceId formed = form(base, left, right, pass);
+  if (formed.valid() && joins && pass + 1 < kPasses) {
+    // Loops are long: those before are looked at only where some are odd now.
+    const int oddAfter = oddLoops(front_, edgesAt(cornersOf(formed)));
+    if (oddAfter > 0) {
+      m.rollback(mark);
+      std::vector<HalfedgeId> before = edgesAt({left.existing, right.existing});
+      before.push_back(base);
+      wasOdd_ = oddAfter > oddLoops(front_, before);
+      formed = wasOdd_ ? FaceId() : form(base, left, right, pass);
+    }
+  }
+  if (!formed.valid()) {
     m.rollback(mark);
     return false;
-  };
-  const VertexId d = realize(base, left);
-  if (!d.valid()) return undo();
-  if (!leftThere && !recoverEdge(front_, base, d).valid()) return undo();
-  const VertexId c = realize(following, right);
-  if (!c.valid() || c == d) return undo();
-  if (!leftThere && !fitsSize(a, d, pass)) return undo();
-  if (!rightThere && !fitsSize(b, c, pass)) return undo();
-  if (!fitsSize(c, d, pass)) return undo();
-  if (!rightThere && !recoverEdge(front_, following, c).valid()) return undo();
-  const HalfedgeId downwards = m.find(d, a);
-  if (!downwards.valid() || !m.isOpen(downwards)) return undo();
-  const HalfedgeId top = m.find(c, d);
-  if (!(top.valid() && m.isOpen(top)) && !recoverEdge(front_, downwards, c).valid()) return undo();
-  const auto formed = formElement(front_, {a, b, c, d}, kLeastQuad[static_cast<std::size_t>(pass)]);
-  if (!formed) return undo();
-
+  }
+  const std::vector<VertexId> corners = cornersOf(formed);
   if (joins) {
-    std::vector<HalfedgeId> edges;
-    for (const VertexId v : {a, b, c, d}) {
-      const auto at = frontEdgesAt(front_, v);
-      edges.insert(edges.end(), at.begin(), at.end());
-    }
-    if (pass + 1 < kPasses && oddLoops(front_, edges) > oddBefore) return undo();
     ++statistics_.collisions;
     note(TraceKind::collision, base, pass);
   }
-  makeDelaunay(front_, {a, b, c, d});
-  if (joins) relaxAround({a, b, c, d});
-  m.commit();
-  finishQuad(*formed, baseLevel);
+  makeDelaunay(front_, corners);
+  if (joins) relaxAround(corners);
+  commit();
+  finishQuad(formed, baseLevel);
   return true;
 }
 
 void Advance::finishQuad(FaceId f, int baseLevel) {
   EditMesh& m = mesh();
   ++statistics_.quads;
-  std::vector<VertexId> corners;
-  std::vector<HalfedgeId> created;
-  const HalfedgeId first = m.halfedge(f);
-  HalfedgeId h = first;
-  do {
-    corners.push_back(m.origin(h));
-    const HalfedgeId t = m.twin(h);
-    if (t.valid() && front_.isFront(t)) {
-      created.push_back(t);
-      level(t) = baseLevel + 1;
-    }
-    h = m.next(h);
-  } while (h != first);
-  enqueueAround(corners);
+  for (const HalfedgeId h : m.sides(f)) {
+    if (h.valid() && m.twin(h).valid() && front_.isFront(m.twin(h))) level(m.twin(h)) = baseLevel + 1;
+  }
+  enqueueAround(cornersOf(f));
 }
 
 /// Moves the free-standing nodes around a collision towards parallelograms (section 4.2: "relaxation near front
@@ -336,6 +353,12 @@ Result<FrontResult> Advance::run(Progress& progress) {
     const HalfedgeId h = queue_.pop();
     if (h.valid()) {
       if (!front_.isFront(h)) continue;
+      if (attempts_.isVain(front_, h, pass)) {
+        --step;
+        failed.push_back(h);
+        continue;
+      }
+      wasOdd_ = false;
       if (advanceFrom(h, pass)) {
         advanced = true;
         ++sinceRetry;
@@ -349,6 +372,7 @@ Result<FrontResult> Advance::run(Progress& progress) {
         }
       } else {
         failed.push_back(h);
+        if (!wasOdd_) attempts_.noteFailure(h, pass);
         if (trace_ != nullptr) trace_->failed(mesh().origin(h), mesh().target(h));
       }
       continue;

@@ -4,6 +4,7 @@
 
 #include "field/patches.hpp"
 #include "front/face_mesh_checks.hpp"
+#include "qmcf/base/math.hpp"
 #include "qmcf/mesh/edit_mesh.hpp"
 #include "qmcf/mesh/element_shape.hpp"
 
@@ -90,6 +91,26 @@ TEST(AdvancingFront, SurvivesPatchesTooSmallToMesh) {
     expectValid(mesh(patch).mesh, patch);
     expectValid(recombinePatch(patch).mesh, patch);
   }
+}
+
+TEST(AdvancingFront, ClosesNarrowFacesToTheirEnd) {
+  // A band of one row whose quads are too short for the first pass: each has to wait for a desperate one, and would try
+  // again whenever any other is made.
+  constexpr int kAround = 200;
+  testing::Grid grid;
+  grid.nx = kAround;
+  grid.ny = 1;
+  grid.closedX = true;
+  grid.map = [](double x, double y) {
+    const double angle = 2.0 * math::kPi * x;
+    return Vec3{math::cos(angle), math::sin(angle), 2.0 * math::kPi / kAround * y};
+  };
+  const Patch patch = testing::makeGrid(grid, 3.4 * 2.0 * math::kPi / kAround);
+  const FrontResult result = mesh(patch);
+  expectValid(result.mesh, patch);
+  EXPECT_EQ(result.statistics.recombined, 0);
+  EXPECT_GE(result.statistics.quads, kAround - 4);
+  EXPECT_LT(result.statistics.rollbacks, 300 * kAround);
 }
 
 TEST(AdvancingFront, GivesTheSameMeshEachTime) {
