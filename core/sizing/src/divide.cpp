@@ -39,6 +39,9 @@ std::int32_t followingCount(const PlacedCurve& placed, std::int32_t count, doubl
   return count;
 }
 
+/// How closely chords follow the edge where a face asked for divisions, in lengths of these.
+constexpr double kClose = 0.5;
+
 Plan planEdge(const TriangleMesh& mesh, const BrepEdge& edge, const SizeField& size, std::size_t e,
               std::int32_t minimum) {
   Plan plan;
@@ -52,6 +55,9 @@ Plan planEdge(const TriangleMesh& mesh, const BrepEdge& edge, const SizeField& s
   }
   plan.stops = edge.stops;
   plan.chordSize = size.chordSize;
+  // Divisions that a face asked for are there for its chords: corners of a coarse polygon become nodes, whatever the
+  // size.
+  if (minimum > 1) plan.chordSize = std::min(plan.chordSize, kClose * plan.curve.length() / minimum);
   plan.least = std::max(minimum, plan.curve.closed ? 3 : 1);
   if (e < size.minimumDivisions.size()) plan.least = std::max(plan.least, size.minimumDivisions[e]);
   plan.count = std::max(plan.least, static_cast<std::int32_t>(std::floor(plan.wanted() + 0.5)));

@@ -244,7 +244,8 @@ TEST(Background, ChordsThatCutThroughAThinRingAreReported) {
   SizeField coarse;
   coarse.base = 10.0;
   coarse.value.assign(mesh.positions.size(), 10.0);
-  const DividedEdges divided = divideEdges(mesh, brep, coarse, {8, 8});
+  coarse.minimumDivisions = {8, 8};
+  const DividedEdges divided = divideEdges(mesh, brep, coarse, {});
   SilentProgress progress;
   const Result<BackgroundResult> result = buildBackground(mesh, brep, 0, coarse, divided, {}, progress);
   ASSERT_TRUE(result.ok());

@@ -95,6 +95,24 @@ TEST(DivideEdges, MinimaAreKeptAndFacesStayEven) {
   }
 }
 
+TEST(DivideEdges, DivisionsThatAFaceAskedForPassThroughTheCornersOfCoarsePolygons) {
+  // A rim of a ring so narrow that no chord may miss it: divisions far below the size used to cut each corner, however
+  // many there were.
+  constexpr int kSegments = 27;
+  const Divided d = divide(parts::disk(kSegments, 1.0), 0.3, {200});
+  const EdgeDivision& rim = d.edges.edges[0];
+  int corners = 0;
+  for (const Vec3& p : d.mesh.positions) {
+    corners += std::any_of(rim.nodes.begin(), rim.nodes.end(),
+                           [&](std::int32_t node) {
+                             return distance(d.edges.nodes[static_cast<std::size_t>(node)], p) < 1e-12;
+                           })
+                   ? 1
+                   : 0;
+  }
+  EXPECT_EQ(corners, kSegments);
+}
+
 TEST(DivideEdges, OppositeSidesOfABoxAgree) {
   const Divided d = divide(parts::box(3.3, 4.7, 5.2), 0.7);
   for (const BrepFace& face : d.brep.faces) {
