@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "qmcf/base/math.hpp"
@@ -66,16 +68,19 @@ Stand standOf(const EditMesh& mesh, const TriangleBvh& surface, FaceId f) {
   return stand;
 }
 
-double penaltyAround(const EditMesh& mesh, const TriangleBvh& surface, VertexId v) {
+/// The penalty of all elements of a vertex; once it is known to be as high as `most`, the rest is left out.
+double penaltyAround(const EditMesh& mesh, const TriangleBvh& surface, VertexId v, double most) {
   double sum = 0.0;
-  mesh.forEachOutgoing(v, [&](HalfedgeId h) { sum += standOf(mesh, surface, mesh.face(h)).penalty; });
+  mesh.forEachOutgoing(v, [&](HalfedgeId h) {
+    if (sum < most) sum += standOf(mesh, surface, mesh.face(h)).penalty;
+  });
   return sum;
 }
 
 /// Moves the vertex to the best of the places around it. Returns whether that helped.
 bool moveToBest(EditMesh& mesh, const RelaxationTarget& target, VertexId v) {
   constexpr double kWorthwhile = 0.98;
-  const double before = penaltyAround(mesh, target.face, v);
+  const double before = penaltyAround(mesh, target.face, v, HUGE_VAL);
   if (!(before > 0.0)) return false;
   const EditMesh::Vertex start = mesh.vertex(v);
   const double size = target.sizeScale * interpolate(target.patch.surface, target.patch.size, start.location);
@@ -90,7 +95,7 @@ bool moveToBest(EditMesh& mesh, const RelaxationTarget& target, VertexId v) {
       const Vec3 aim = start.position + (x * turn.real() + y * turn.imag()) * (step * size);
       const EditMesh::Vertex moved = projectVertex(target, start, aim);
       mesh.setVertex(v, moved);
-      const double penalty = penaltyAround(mesh, target.face, v);
+      const double penalty = penaltyAround(mesh, target.face, v, least);
       if (penalty >= least) continue;
       least = penalty;
       best = moved;
@@ -199,12 +204,15 @@ bool mendTriangles(EditMesh& mesh, const TriangleBvh& surface) {
 
 std::int64_t untangle(EditMesh& mesh, const RelaxationTarget& target) {
   std::int64_t found = 0;
+  std::int64_t before = 0;  // Elements turned over, one sweep and two sweeps ago.
+  std::int64_t earlier = 0;
   for (int sweep = 0; sweep < kSweeps; ++sweep) {
-    std::vector<VertexId> vertices;  // Of elements that are turned over.
+    std::int64_t turnedOver = 0;
+    std::vector<VertexId> vertices;  // Of these elements.
     for (std::size_t i = 0; i < mesh.faceCapacity(); ++i) {
       const FaceId f(i);
       if (mesh.kind(f) == FaceKind::removed || !standOf(mesh, target.face, f).turnedOver) continue;
-      found += sweep == 0 ? 1 : 0;
+      ++turnedOver;
       for (const HalfedgeId h : mesh.sides(f)) {
         if (!h.valid()) continue;
         vertices.push_back(mesh.origin(h));
@@ -212,7 +220,10 @@ std::int64_t untangle(EditMesh& mesh, const RelaxationTarget& target) {
         mesh.forEachOutgoing(mesh.origin(h), [&](HalfedgeId out) { vertices.push_back(mesh.target(out)); });
       }
     }
-    if (vertices.empty()) break;
+    if (sweep == 0) found = turnedOver;
+    // What two sweeps with all there is have not turned back will not be.
+    if (vertices.empty() || (sweep > kWiderSweep + 1 && turnedOver >= earlier)) break;
+    earlier = std::exchange(before, turnedOver);
     std::sort(vertices.begin(), vertices.end());
     vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
     bool helped = false;
