@@ -150,7 +150,9 @@ class MeshRun {
       auto prepared = prepareGiven(mesh_, brep_, options_, sizes_, given, progress_);
       if (!prepared) return prepared.error();
       if (const auto error = meshChanged(prepared.value())) return error;
-      auto made = join(prepared.value(), std::vector<char>(faces_.size(), 1));
+      const auto separate = shareFaces(prepared.value());
+      if (!separate) return separate.error();
+      auto made = join(prepared.value(), separate.value(), std::vector<char>(faces_.size(), 1));
       if (!made) return made.error();
       atFault = facesAtFault(made.value().mesh, made.value().quality, brep_);
       if (countFaults(made.value().quality) < countFaults(result_.quality)) {
@@ -170,6 +172,12 @@ class MeshRun {
     std::int64_t slidNodes = 0;
     QualityReport quality;
     std::vector<SizeLimit> limits;  ///< Where smaller elements may make it valid.
+  };
+
+  /// Meshes that will share the nodes on their edges.
+  struct SeparateFaces {
+    SharedNodes nodes;
+    std::vector<SharedFace> faces;
   };
 
   /// Everything from the sizes to the meshed faces.
@@ -274,13 +282,15 @@ class MeshRun {
   Result<Attempt> attempt(const PreparedFaces& prepared) {
     const auto faultsOf = [](const Attempt& made) { return halvedWhereInvalid(made.mesh, made.quality); };
     std::vector<char> held(faces_.size(), 0);
-    auto best = join(prepared, held);
+    const auto separate = shareFaces(prepared);
+    if (!separate) return separate.error();
+    auto best = join(prepared, separate.value(), held);
     if (!best) return best;
     std::vector<SizeLimit> faults = faultsOf(best.value());
     for (int round = 0; round < kMaxHolds && !faults.empty(); ++round) {
       for (const SizeLimit& fault : faults) held[static_cast<std::size_t>(fault.face)] = 1;
       if (round + 1 == kMaxHolds) held.assign(held.size(), 1);
-      auto made = join(prepared, held);
+      auto made = join(prepared, separate.value(), held);
       if (!made) return made;
       faults = faultsOf(made.value());
       if (faults.size() < faultsOf(best.value()).size()) best = std::move(made);
@@ -288,15 +298,22 @@ class MeshRun {
     return best;
   }
 
-  /// held: per face, 1 if it is not relaxed with the others.
-  Result<Attempt> join(const PreparedFaces& prepared, const std::vector<char>& held) {
-    Attempt made;
-    SharedNodes shared = options_.allQuad ? halvedNodes(mesh_, brep_, prepared.divided) : sharedNodes(prepared.divided);
-    std::vector<SharedFace> faces;
-    for (const MeshedFace& face : faces_) faces.push_back(shareFace(face, prepared));
+  /// The faces' meshes as they are joined, cut up if there shall be quadrilaterals only.
+  Result<SeparateFaces> shareFaces(const PreparedFaces& prepared) {
+    SeparateFaces separate;
+    separate.nodes = options_.allQuad ? halvedNodes(mesh_, brep_, prepared.divided) : sharedNodes(prepared.divided);
+    for (const MeshedFace& face : faces_) separate.faces.push_back(shareFace(face, prepared));
     if (options_.allQuad) {
-      if (const auto error = subdivideAll(prepared, shared, faces)) return *error;
+      if (const auto error = subdivideAll(prepared, separate.nodes, separate.faces)) return *error;
     }
+    return separate;
+  }
+
+  /// held: per face, 1 if it is not relaxed with the others.
+  Result<Attempt> join(const PreparedFaces& prepared, const SeparateFaces& separate, const std::vector<char>& held) {
+    Attempt made;
+    SharedNodes shared = separate.nodes;
+    std::vector<SharedFace> faces = separate.faces;
     const auto slid = relaxJoint(mesh_, brep_, prepared, faces, held, shared, 1.0 / coarsening_, progress_);
     if (!slid) return slid.error();
     made.slidNodes = slid.value();
