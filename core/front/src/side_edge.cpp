@@ -43,7 +43,7 @@ Vec3 bisectorDirection(const FrontMesh& front, const SideRequest& request) {
 /// A side is no longer and no shorter than the front edges that it starts from by more than these factors: a row that
 /// the size field wants much higher than its edges are long is made of elements that nothing can make square later.
 constexpr double kLongestSide = 1.4;
-constexpr double kShortestSide = 0.9;
+constexpr double kShortestSide = 0.8;
 
 /// Mean length of the two front edges at a sector.
 double frontLength(const FrontMesh& front, HalfedgeId sector) {

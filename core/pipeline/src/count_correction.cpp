@@ -8,7 +8,7 @@
 namespace qmcf {
 namespace {
 
-constexpr double kTolerance = 0.03;
+constexpr double kTolerance = 0.04;
 constexpr double kFromFeatures = 1.2;
 constexpr double kMostCorrection = 1.5;
 constexpr double kMostElements = 1e7;
