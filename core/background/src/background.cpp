@@ -54,6 +54,7 @@ bool remesh(Remesher& remesher, const RemeshMesh& mesh, FaceBoundary& boundary, 
   remesher.updateSizes();
   remesher.removePoints();
   coarsen(remesher, mesh);
+  if (!remesher.flipNeedles(progress)) return false;
   remesher.flipEdges();
   // Long needles are cut in few pieces first: collapses and flips between make most of the others unnecessary.
   for (double scale = kCoarsest; scale > 1.0; scale *= 0.5) {

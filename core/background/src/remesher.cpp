@@ -342,6 +342,55 @@ bool Remesher::wantsFlip(std::int32_t h) const {
   return dot(normalized(left.area), normalized(right.area)) > kFlat;
 }
 
+/// Whether the angles opposite an edge between two triangles of a plane, one of them a needle, are more than half a
+/// turn together.
+bool Remesher::isBetweenNeedles(std::int32_t h) const {
+  constexpr double kFlat = 0.9999;
+  constexpr double kRoundOff = 1e-12;
+  const Vec3& a = mesh_.positionOf(mesh_.origin(h));
+  const Vec3& b = mesh_.positionOf(mesh_.target(h));
+  const Vec3& c = mesh_.positionOf(mesh_.apex(h));
+  const Vec3& d = mesh_.positionOf(mesh_.apex(mesh_.twin(h)));
+  const Shape left = shapeOf(a, b, c);
+  const Shape right = shapeOf(b, a, d);
+  if (std::min(left.quality, right.quality) >= kPoorQuality) return false;
+  if (!(dot(normalized(left.area), normalized(right.area)) > kFlat)) return false;
+  const Vec3 normal = left.area + right.area;
+  for (const auto& [p, q, r] : {std::array{d, c, a}, std::array{c, d, b}}) {
+    const Vec3 area = cross(q - p, r - p);
+    if (!(dot(area, normal) > kFlat * norm(area) * norm(normal))) return false;
+  }
+  const double atC = norm(cross(a - c, b - c));
+  const double atD = norm(cross(b - d, a - d));
+  const double sine = atC * dot(b - d, a - d) + atD * dot(a - c, b - c);
+  return sine < -kRoundOff * norm(a - c) * norm(b - c) * norm(b - d) * norm(a - d);
+}
+
+bool Remesher::flipNeedles(Progress& progress) {
+  std::vector<std::int32_t> due;
+  for (std::int32_t h = 0; h < mesh_.halfedgeCount(); ++h) due.push_back(h);
+  // Two rails of n nodes, joined from one end, take n^2 / 2 flips, and each flip asks four edges again.
+  constexpr double kMost = 2e8;
+  const auto count = static_cast<double>(due.size());
+  auto budget = static_cast<std::int64_t>(std::min(kMost, 16.0 * count + count * count / 8.0));
+  constexpr std::int64_t kBetweenReports = 1 << 18;
+  for (; !due.empty() && budget > 0; --budget) {
+    if (budget % kBetweenReports == 0 && !progress.report(Stage::background, 0.0)) return false;
+    const std::int32_t h = due.back();
+    due.pop_back();
+    if (mesh_.isRemoved(h) || mesh_.twin(h) == kNone || !isBetweenNeedles(h) || !mesh_.canFlip(h)) continue;
+    for (const std::int32_t v : {mesh_.origin(h), mesh_.target(h), mesh_.apex(h), mesh_.apex(mesh_.twin(h))}) {
+      wake(v);
+    }
+    mesh_.flip(h);
+    for (const std::int32_t side : {h, mesh_.twin(h)}) {
+      due.push_back(RemeshMesh::next(side));
+      due.push_back(RemeshMesh::prev(side));
+    }
+  }
+  return true;
+}
+
 void Remesher::flipEdges() {
   constexpr int kSweeps = 4;
   // An edge that did not want to flip does not either as long as its triangles are the same.

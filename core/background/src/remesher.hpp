@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "face_reference.hpp"
+#include "qmcf/base/progress.hpp"
 #include "qmcf/mesh/triangle_mesh.hpp"
 #include "qmcf/sizing/size_field.hpp"
 #include "remesh_mesh.hpp"
@@ -47,6 +48,9 @@ class Remesher {
   /// Splits edges inside that are longer than `scale` targets, and edges between two boundary vertices where there is
   /// room for a vertex; returns how many.
   std::int32_t splitLong(double scale);
+  /// Makes needles of flat regions Delaunay by flips, so that fans of them don't have to be split into small pieces.
+  /// Returns false when progress asked to stop.
+  [[nodiscard]] bool flipNeedles(Progress& progress);
   /// Flips edges where that makes better triangles.
   void flipEdges();
   /// Moves vertices inside towards the middle of their neighbours, then onto the face. Leaves out those around which
@@ -62,6 +66,7 @@ class Remesher {
   [[nodiscard]] double quality(std::int32_t a, std::int32_t b, std::int32_t c) const;
   [[nodiscard]] bool tryCollapse(std::int32_t h, std::int32_t removed);
   [[nodiscard]] bool keepsShape(std::int32_t removed, std::int32_t kept, double longest);
+  [[nodiscard]] bool isBetweenNeedles(std::int32_t h) const;
   [[nodiscard]] bool wantsFlip(std::int32_t h) const;
   void wake(std::int32_t v) { awake_[static_cast<std::size_t>(v)] = 1; }
   void wakeAround(std::int32_t v);

@@ -165,6 +165,17 @@ TEST(Background, BoxOfTwoTrianglesASide) {
   EXPECT_NEAR(area, 22.0, 1e-9);
 }
 
+TEST(Background, ANeedleTakesFewVerticesMoreThanItsNodes) {
+  // Its two long sides were joined by a fan of needles, all of which were cut into pieces.
+  TriangleMesh needle;
+  needle.positions = {{0, 0, 0}, {1000, 0, 0}, {0, 1, 0}};
+  needle.triangles = {{0, 1, 2}};
+  const Remeshed r = remesh(needle, 2.0);
+  ASSERT_EQ(r.patches.size(), 1U);
+  EXPECT_LT(r.patches[0].surface.vertexCount(), 2 * r.divided.nodes.size());
+  EXPECT_NEAR(areaOf(r.patches[0]), 500.0, 1e-6);
+}
+
 TEST(Background, DiskFromAFanOfEars) {
   const Remeshed r = remesh(parts::disk(128, 1.0), 0.15);
   ASSERT_EQ(r.patches.size(), 1U);
