@@ -109,12 +109,14 @@ class MeshRun {
       // Faces that are poorly covered are made anew as a whole, and count as one fault each.
       const auto missing = halvedWhereMissing(attempted.value().mesh, attempted.value().quality, brep_);
       const auto elements = static_cast<double>(attempted.value().mesh.elements.size());
-      const std::size_t faults = limits.size() + (missing.empty() ? 0 : 1);
+      const auto missed = halvedWhereMissed(attempted.value().quality.missed, mesh_, brep_, prepared.size);
+      const std::size_t faults = limits.size() + (missing.empty() ? 0 : 1) + missed.size();
       if (round == 0 || faults < fewest) {
         fewest = faults;
         if (const auto error = keep(std::move(attempted).value(), prepared)) return *error;
       }
       limits.insert(limits.end(), missing.begin(), missing.end());
+      limits.insert(limits.end(), missed.begin(), missed.end());
       limits = notBelow(limits, kLowestSize * base);
       if (round == 0) mostElements = kMostGrowth * elements + kFewElements;
       const bool isLost = elements > mostElements || faults > 2 * fewest + kFewFaults;

@@ -6,6 +6,8 @@
 #include <cstddef>
 #include <string_view>
 
+#include "qmcf/spatial/triangle_bvh.hpp"
+
 namespace qmcf {
 namespace {
 
@@ -85,6 +87,27 @@ std::vector<SizeLimit> halvedWhereMissing(const QuadMesh& mesh, const QualityRep
   for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
     if (poor[static_cast<std::size_t>(mesh.elementFace[e])] == 0) continue;
     limits.push_back(halved(mesh.positions, mesh.elements[e], mesh.elementFace[e]));
+  }
+  return limits;
+}
+
+std::vector<SizeLimit> halvedWhereMissed(const std::vector<Vec3>& places, const TriangleMesh& mesh, const Brep& brep,
+                                         const SizeField& size) {
+  constexpr double kApart = 2.0;  // In units of the limit.
+  std::vector<SizeLimit> limits;
+  if (places.empty()) return limits;
+  const TriangleBvh tree(mesh.positions, mesh.triangles);
+  for (const Vec3& place : places) {
+    const ClosestPoint closest = tree.closest(place);
+    const auto t = static_cast<std::size_t>(closest.triangle);
+    SizeLimit limit{brep.triangleFace[t], place, 0.0};
+    for (std::size_t c = 0; c < 3; ++c) {
+      limit.size += 0.5 * closest.barycentric[c] * size.value[static_cast<std::size_t>(mesh.triangles[t][c])];
+    }
+    const bool isNear = std::any_of(limits.begin(), limits.end(), [&](const SizeLimit& other) {
+      return other.face == limit.face && distance(other.position, place) < kApart * other.size;
+    });
+    if (!isNear) limits.push_back(limit);
   }
   return limits;
 }

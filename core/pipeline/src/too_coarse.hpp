@@ -5,6 +5,7 @@
 
 #include "qmcf/mesh/face_mesh.hpp"
 #include "qmcf/mesh/quad_mesh.hpp"
+#include "qmcf/mesh/triangle_mesh.hpp"
 #include "qmcf/quality/quality.hpp"
 #include "qmcf/sizing/size_field.hpp"
 
@@ -22,6 +23,10 @@ std::vector<SizeLimit> notBelow(const std::vector<SizeLimit>& limits, double low
 
 /// The same for all elements of faces of which much is missing, when the mesh fails to cover the part.
 std::vector<SizeLimit> halvedWhereMissing(const QuadMesh& mesh, const QualityReport& quality, const Brep& brep);
+
+/// Half the size at places of the part that the mesh misses (QualityReport::missed), as far apart as that reaches.
+std::vector<SizeLimit> halvedWhereMissed(const std::vector<Vec3>& places, const TriangleMesh& mesh, const Brep& brep,
+                                         const SizeField& size);
 
 /// Faces with elements that a failing check lists, and those of which much is missing, ascending.
 std::vector<std::int32_t> facesAtFault(const QuadMesh& mesh, const QualityReport& quality, const Brep& brep);

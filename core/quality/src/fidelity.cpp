@@ -48,21 +48,24 @@ std::vector<std::int32_t> trianglesBelow(const MeasuredMesh& measured, const std
   return below;
 }
 
-double largestGapOf(const MeasuredMesh& measured, const Reference& reference) {
+void measureGaps(Distances& result, const MeasuredMesh& measured, const Reference& reference, double far) {
   const TriangleBvh tree = treeOf(measured);
-  if (tree.empty()) return 0.0;
-  double largest = 0.0;
+  if (tree.empty()) return;
+  const auto look = [&](const Vec3& place) {
+    const double gap = distanceTo(tree, place);
+    result.largestGap = std::max(result.largestGap, gap);
+    if (gap > far) result.missed.push_back(place);
+  };
   const std::size_t vertexStep = (reference.positions.size() + kGapSamples - 1) / kGapSamples;
   for (std::size_t v = 0; v < reference.positions.size(); v += vertexStep) {
-    largest = std::max(largest, distanceTo(tree, reference.positions[v]));
+    look(reference.positions[v]);
   }
   const std::size_t triangleStep = (reference.triangles.size() + kGapSamples - 1) / kGapSamples;
   for (std::size_t t = 0; t < reference.triangles.size(); t += triangleStep) {
     Vec3 sum;
     for (std::size_t c = 0; c < 3; ++c) sum += reference.positions[static_cast<std::size_t>(reference.triangles[t][c])];
-    largest = std::max(largest, distanceTo(tree, sum / 3.0));
+    look(sum / 3.0);
   }
-  return largest;
 }
 
 bool isTurnedOver(const MeasuredMesh& measured, std::size_t e, const Reference& reference,
@@ -104,7 +107,7 @@ std::vector<ClosestPoint> projectCentres(const MeasuredMesh& measured, const Ref
 }
 
 Distances measureDistances(const MeasuredMesh& measured, const Reference& reference,
-                           const std::vector<ClosestPoint>& projected) {
+                           const std::vector<ClosestPoint>& projected, double far) {
   Distances result;
   const std::vector<std::int32_t> below = trianglesBelow(measured, projected);
   for (std::size_t v = 0; v < measured.mesh.positions.size(); ++v) {
@@ -120,7 +123,7 @@ Distances measureDistances(const MeasuredMesh& measured, const Reference& refere
     area += measured.areas[e];
   }
   if (area > 0.0) result.mean /= area;
-  result.largestGap = largestGapOf(measured, reference);
+  measureGaps(result, measured, reference, far);
   return result;
 }
 

@@ -28,9 +28,10 @@ struct Distances {
   double mean = 0.0;        ///< Of element centres from the reference, weighted by area.
   double largest = 0.0;     ///< Of vertices and element centres from the reference.
   double largestGap = 0.0;  ///< Of the reference's vertices and triangle centres from the mesh, a few thousand at most.
+  std::vector<Vec3> missed;  ///< Those of them that are farther than `far`.
 };
 Distances measureDistances(const MeasuredMesh& measured, const Reference& reference,
-                           const std::vector<ClosestPoint>& projected);
+                           const std::vector<ClosestPoint>& projected, double far);
 
 /// Elements with a corner whose normal opposes the reference's surface near it: the triangle closest to the element's
 /// centre, and all triangles of the patch under the corner, so that elements that meet a sharp edge don't count.

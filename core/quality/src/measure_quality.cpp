@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -12,6 +13,9 @@
 namespace qmcf {
 namespace quality {
 namespace {
+
+/// A place of the part so many target lengths away from the mesh is missed by it.
+constexpr double kMissed = 1.5;
 
 /// Values of one metric, summarised with the worst at one end.
 class Sample {
@@ -178,10 +182,12 @@ void measureTopology(const MeasuredMesh& measured, QualityReport& report) {
 
 void measureFidelity(const MeasuredMesh& measured, const Reference& reference,
                      const std::vector<ClosestPoint>& projected, double featureAngle, QualityReport& report) {
-  const Distances distances = measureDistances(measured, reference, projected);
+  const double far = report.size > 0.0 ? kMissed * report.size : std::numeric_limits<double>::infinity();
+  Distances distances = measureDistances(measured, reference, projected, far);
   report.meanDistance = distances.mean;
   report.largestDistance = distances.largest;
   report.largestGap = distances.largestGap;
+  report.missed = std::move(distances.missed);
   if (!(report.size > 0.0)) return;
   const Recall recall = measureRecall(measured, findFeatures(reference, featureAngle), report.size);
   report.sharpRecall = recall.sharp;

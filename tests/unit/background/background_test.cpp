@@ -155,7 +155,7 @@ TEST(Background, BoxOfTwoTrianglesASide) {
   double area = 0.0;
   for (const Patch& patch : r.patches) {
     checkPatch(r, patch);
-    EXPECT_GT(smallestAngle(patch), 22.0);
+    EXPECT_GT(smallestAngle(patch), 20.0);
     EXPECT_EQ(edgesBetweenBoundaryVertices(patch), 0);
     area += areaOf(patch);
     std::int64_t corners = 0;

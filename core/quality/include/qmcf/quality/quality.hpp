@@ -147,6 +147,7 @@ struct QualityReport {
   std::optional<double> meanDistance;       ///< Of element centres from the reference, weighted by area.
   std::optional<double> largestDistance;    ///< Of vertices and element centres from the reference.
   std::optional<double> largestGap;         ///< Of the reference's vertices and triangle centres from the mesh.
+  std::vector<Vec3> missed;                 ///< Such places that are farther from the mesh than 1.5 target lengths.
   std::optional<double> sharpRecall;        ///< Share of the reference's sharp edge length that the mesh keeps.
   std::optional<double> boundaryRecall;     ///< The same of its boundary. Absent when the reference has none.
   std::optional<double> nonManifoldRecall;  ///< The same of its non-manifold edges.
