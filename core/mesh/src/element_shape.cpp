@@ -9,7 +9,8 @@ namespace {
 /// turned over: the input's facets there may lean still more.
 constexpr double kLeaning = 0.4;
 constexpr double kFolded = 0.2;
-/// Height over length below which a triangle has no area to speak of.
+/// Height over length below which a triangle has no area to speak of, and sine of a corner's angle below which a quad
+/// is no better: what is written as text may be turned over when it is read.
 constexpr double kFlat = 1e-9;
 /// What is better than asked for by this factor, in squares, is so whatever the round-off.
 constexpr double kMargin = 1.01;
@@ -99,7 +100,9 @@ bool isDegenerate(const EditMesh& mesh, FaceId f) {
   const Vec3 normal = corners == 4 ? cross(p(2) - p(0), p(3) - p(1)) : cross(p(1) - p(0), p(2) - p(0));
   if (corners == 3) return !(norm(normal) > kFlat * squaredNorm(p(1) - p(0)));
   for (std::size_t i = 0; i < corners; ++i) {
-    if (!(dot(cross(p(i + 1) - p(i), p(i + 3) - p(i)), normal) > 0.0)) return true;
+    const Vec3 next = p(i + 1) - p(i);
+    const Vec3 last = p(i + 3) - p(i);
+    if (!(dot(cross(next, last), normal) > kFlat * norm(next) * norm(last) * norm(normal))) return true;
   }
   return false;
 }

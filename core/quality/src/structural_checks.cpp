@@ -17,12 +17,15 @@ std::vector<std::int64_t> elementsAtEdges(const EdgeTable& table, Wanted wanted)
   return result;
 }
 
+/// A quad with a smaller scaled Jacobian may be folded over once its coordinates are written and read.
+constexpr double kNoShape = 1e-9;
+
 bool hasNoShape(const QuadMesh& mesh, const Element& element) {
   const auto at = [&](std::size_t corner) -> const Vec3& {
     return mesh.positions[static_cast<std::size_t>(element[corner])];
   };
   if (cornerCount(element) == 3) return !(triangleScaledJacobian(at(0), at(1), at(2)) > 0.0);
-  return !(quadScaledJacobian(at(0), at(1), at(2), at(3)) > 0.0);
+  return !(quadScaledJacobian(at(0), at(1), at(2), at(3)) > kNoShape);
 }
 
 std::vector<std::int64_t> unreferencedVertices(const QuadMesh& mesh) {

@@ -68,8 +68,8 @@ struct ValidityReport {
 
 /// Structural checks of a mesh alone, cheap enough to follow every stage: O(n), no search in space.
 /// "empty", "indexOutOfRange", "nonFiniteCoordinate", "repeatedCorner", "duplicateElements", "orientationConflicts",
-/// "invertedElements" (quads with scaled Jacobian <= 0, triangles without area), "featureSegments" (segments that are
-/// no edge of the mesh) and "nonManifoldEdges" (more than two elements, off the feature segments) fail;
+/// "invertedElements" (quads with scaled Jacobian <= 1e-9, triangles without area), "featureSegments" (segments that
+/// are no edge of the mesh) and "nonManifoldEdges" (more than two elements, off the feature segments) fail;
 /// "nonManifoldVertices" (more than one fan, off the feature segments) and "unreferencedVertices" warn.
 /// Elements that fail one of the second to fourth check are left out of the others.
 ValidityReport validateMesh(const QuadMesh& mesh);
