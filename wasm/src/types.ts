@@ -328,6 +328,8 @@ export interface QualityReport {
   readonly largestDistance?: number | null;
   /** Of the input's vertices and triangle centres from the mesh. */
   readonly largestGap?: number | null;
+  /** Such places that are farther from the mesh than 1.5 target lengths. */
+  readonly missed?: readonly (readonly [number, number, number])[];
   /** Share of the input's sharp edge length that the mesh keeps. */
   readonly sharpRecall?: number | null;
   /** The same of its boundary; absent when it has none. */

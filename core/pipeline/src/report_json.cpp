@@ -126,6 +126,8 @@ void addFidelity(Json& json, const QualityReport& report) {
   json["meanDistance"] = toValue(report.meanDistance);
   json["largestDistance"] = toValue(report.largestDistance);
   json["largestGap"] = toValue(report.largestGap);
+  json["missed"] = Json::array();
+  for (const Vec3& place : report.missed) json["missed"].push_back({place.x, place.y, place.z});
   json["sharpRecall"] = toValue(report.sharpRecall);
   json["boundaryRecall"] = toValue(report.boundaryRecall);
   json["nonManifoldRecall"] = toValue(report.nonManifoldRecall);
