@@ -47,7 +47,10 @@ const better = (column, a, b) => (column === 2 ? a > b : a < b);
 function parseCommandLine() {
   const text = { type: 'string' };
   const { values } = parseArgs({
-    options: { fandisk: text, quads: text, qmcf: text, judge: text, goals: { type: 'boolean' }, write: { type: 'boolean' }, help: { type: 'boolean' } },
+    options: {
+      fandisk: text, quads: text, qmcf: text, judge: text,
+      goals: { type: 'boolean' }, write: { type: 'boolean' }, help: { type: 'boolean' },
+    },
   });
   if (values.help) return null;
   const counts = (values.quads ?? '3000').split(',').map(Number);

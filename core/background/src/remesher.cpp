@@ -342,9 +342,9 @@ bool Remesher::wantsFlip(std::int32_t h) const {
   return dot(normalized(left.area), normalized(right.area)) > kFlat;
 }
 
-/// Whether the angles opposite an edge between two triangles of a plane, one of them a needle, are more than half a
-/// turn together.
-bool Remesher::isBetweenNeedles(std::int32_t h) const {
+/// Whether an edge between two triangles of a plane, one of them a needle, is not Delaunay: the angles opposite it are
+/// more than half a turn together.
+bool Remesher::wantsNeedleFlip(std::int32_t h) const {
   constexpr double kFlat = 0.9999;
   constexpr double kRoundOff = 1e-12;
   const Vec3& a = mesh_.positionOf(mesh_.origin(h));
@@ -378,7 +378,7 @@ bool Remesher::flipNeedles(Progress& progress) {
     if (budget % kBetweenReports == 0 && !progress.report(Stage::background, 0.0)) return false;
     const std::int32_t h = due.back();
     due.pop_back();
-    if (mesh_.isRemoved(h) || mesh_.twin(h) == kNone || !isBetweenNeedles(h) || !mesh_.canFlip(h)) continue;
+    if (mesh_.isRemoved(h) || mesh_.twin(h) == kNone || !wantsNeedleFlip(h) || !mesh_.canFlip(h)) continue;
     for (const std::int32_t v : {mesh_.origin(h), mesh_.target(h), mesh_.apex(h), mesh_.apex(mesh_.twin(h))}) {
       wake(v);
     }

@@ -66,7 +66,7 @@ class Remesher {
   [[nodiscard]] double quality(std::int32_t a, std::int32_t b, std::int32_t c) const;
   [[nodiscard]] bool tryCollapse(std::int32_t h, std::int32_t removed);
   [[nodiscard]] bool keepsShape(std::int32_t removed, std::int32_t kept, double longest);
-  [[nodiscard]] bool isBetweenNeedles(std::int32_t h) const;
+  [[nodiscard]] bool wantsNeedleFlip(std::int32_t h) const;
   [[nodiscard]] bool wantsFlip(std::int32_t h) const;
   void wake(std::int32_t v) { awake_[static_cast<std::size_t>(v)] = 1; }
   void wakeAround(std::int32_t v);
