@@ -347,7 +347,7 @@ export interface QualityReport {
 export interface FaceReport {
   readonly face: number;
   /** The step of the ladder that worked. */
-  readonly method: 'qmcf' | 'qmorph' | 'recombined' | 'triangles' | 'given' | 'omitted';
+  readonly method: 'qmcf' | 'qmorph' | 'strip' | 'recombined' | 'triangles' | 'given' | 'omitted';
   /** Why the earlier steps did not; empty for the first. */
   readonly reason: string;
   readonly quads: number;
@@ -409,6 +409,7 @@ export type TraceKind =
   | 'transition'
   | 'leftover'
   | 'paired'
+  | 'strip'
   | 'triangulated'
   | 'cleanup'
   | 'smooth'

@@ -129,4 +129,23 @@ bool isWellShapedAround(const EditMesh& mesh, VertexId v, double least) {
   return true;
 }
 
+double elementShape(const FaceMesh& mesh, const Element& element) {
+  const std::size_t n = cornerCount(element);
+  Vec3 sum;
+  for (std::size_t c = 0; c < n; ++c) sum += mesh.normals[static_cast<std::size_t>(element[c])];
+  const Vec3 normal = normalized(sum);
+  double worst = 1.0;
+  for (std::size_t c = 0; c < n; ++c) {
+    const auto corner = [&](std::size_t i) -> const Vec3& {
+      return mesh.positions[static_cast<std::size_t>(element[i % n])];
+    };
+    const Vec3 ahead = corner(c + 1) - corner(c);
+    const Vec3 back = corner(c + n - 1) - corner(c);
+    const double lengths = norm(ahead) * norm(back);
+    if (!(lengths > 0.0)) return -1.0;
+    worst = std::min(worst, dot(cross(ahead, back), normal) / lengths);
+  }
+  return worst;
+}
+
 }  // namespace qmcf

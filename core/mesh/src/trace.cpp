@@ -13,9 +13,9 @@ constexpr std::size_t kMostFailed = 64;  // 32 pairs.
 
 std::string_view traceKindName(TraceKind kind) {
   constexpr auto kNames = std::to_array<std::string_view>(
-      {"start",      "star",     "seed",   "quad",         "collision", "closure",    "seam",
-       "transition", "leftover", "paired", "triangulated", "cleanup",   "smooth",     "doublet",
-       "pair",       "collapse", "refill", "cavity",       "untangle",  "subdivision"});
+      {"start",      "star",     "seed",     "quad",   "collision",    "closure",  "seam",
+       "transition", "leftover", "paired",   "strip",  "triangulated", "cleanup",  "smooth",
+       "doublet",    "pair",     "collapse", "refill", "cavity",       "untangle", "subdivision"});
   return kNames[static_cast<std::size_t>(kind)];
 }
 

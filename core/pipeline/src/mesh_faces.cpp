@@ -1,5 +1,6 @@
 #include "mesh_faces.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cassert>
 #include <cstddef>
@@ -9,6 +10,8 @@
 #include "qmcf/cleanup/cleanup.hpp"
 #include "qmcf/cleanup/subdivide.hpp"
 #include "qmcf/front/advancing_front.hpp"
+#include "qmcf/front/strip.hpp"
+#include "qmcf/mesh/element_shape.hpp"
 #include "qmcf/qmorph/qmorph.hpp"
 #include "qmcf/quality/quality.hpp"
 #include "qmcf/topology/brep.hpp"
@@ -94,6 +97,14 @@ Result<FaceMesh> advance(const Patch& patch, const PreparedFaces& prepared, cons
   return std::move(front.value().mesh);
 }
 
+/// A mesh of one row of elements with quadrilaterals only, each good enough: there is nothing to win by a front.
+bool isGoodStrip(const FaceMesh& mesh) {
+  constexpr double kGood = 0.5;
+  return std::all_of(mesh.elements.begin(), mesh.elements.end(), [&](const Element& element) {
+    return cornerCount(element) == 4 && elementShape(mesh, element) >= kGood;
+  });
+}
+
 }  // namespace
 
 Result<MeshedFace> meshFace(const TriangleMesh& mesh, const Brep& brep, const PreparedFaces& prepared,
@@ -121,6 +132,21 @@ Result<MeshedFace> meshFace(const TriangleMesh& mesh, const Brep& brep, const Pr
     return result;
   }
 
+  // The original has no such thing.
+  std::optional<FaceMesh> strip = options.mode == Mode::qmcf ? meshStrip(patch) : std::nullopt;
+  const auto takeStrip = [&] {
+    result.mesh = std::move(*strip);
+    result.report.method = "strip";
+    if (trace != nullptr) {
+      EditMesh work(result.mesh);
+      trace->begin(TraceKind::strip, work);
+    }
+    assert(ledgerCloses(result.mesh, mesh, brep, face));
+    count(result.report, result.mesh);
+    return std::move(result);
+  };
+  if (strip && isGoodStrip(*strip)) return takeStrip();
+
   // A front that got stuck may do better from another start, where the start is free.
   bool isStuck = true;
   Result<FaceMesh> front = FaceMesh{};
@@ -133,7 +159,9 @@ Result<MeshedFace> meshFace(const TriangleMesh& mesh, const Brep& brep, const Pr
   auto cleaned = cleanUp(front.value(), patch, tree, CleanupOptions{}, progress, trace);
   if (!cleaned) return cleaned.error();
   assert(ledgerCloses(cleaned.value().mesh, mesh, brep, face));
-  if (cleaned.value().degenerate.empty() && !isStuck) {
+  const bool isGood = cleaned.value().degenerate.empty() && !isStuck;
+  if (strip && (!isGood || stripCost(*strip) < stripCost(cleaned.value().mesh))) return takeStrip();
+  if (isGood) {
     result.mesh = std::move(cleaned.value().mesh);
     result.report.method = modeName(options.mode);
     count(result.report, result.mesh);

@@ -7,11 +7,12 @@
 #include <iterator>
 #include <utility>
 
-#include "edge_groups.hpp"
+#include "face_uses.hpp"
 #include "node_places.hpp"
 #include "parity.hpp"
 #include "qmcf/base/math.hpp"
 #include "qmcf/sizing/edge_curve.hpp"
+#include "side_balance.hpp"
 
 namespace qmcf {
 namespace {
@@ -102,116 +103,43 @@ void separateParallelEdges(std::vector<Plan>& plans, const Brep& brep) {
   }
 }
 
-/// Gives all edges of a group one number of divisions.
-void settleGroups(std::vector<Plan>& plans, const std::vector<std::vector<std::int32_t>>& groups) {
-  for (const auto& group : groups) {
-    double sum = 0.0;
-    std::int32_t least = 1;
-    for (const std::int32_t e : group) {
-      sum += plans[static_cast<std::size_t>(e)].wanted();
-      least = std::max(least, plans[static_cast<std::size_t>(e)].least);
-    }
-    const double mean = sum / static_cast<double>(group.size());
-    const auto count = std::max(least, static_cast<std::int32_t>(std::floor(mean + 0.5)));
-    for (const std::int32_t e : group) {
-      Plan& plan = plans[static_cast<std::size_t>(e)];
-      if (!plan.asGiven) plan.count = count;
-    }
-  }
-}
-
 double misfit(double count, double wanted) {
   constexpr double kTiny = 1e-3;
   const double w = std::max(wanted, kTiny);
   return std::max(count / w, w / count) - 1.0;
 }
 
-/// A change of one division on all edges of `edges`, in the better direction.
+/// A change of one division on an edge, in the better direction.
 struct Step {
-  std::vector<std::int32_t> edges;
   std::int32_t by = 1;
   double cost = 0.0;
 };
 
-Step stepOf(const std::vector<Plan>& plans, std::vector<std::int32_t> edges) {
-  double up = 0.0;
-  double down = 0.0;
-  bool canShrink = true;
-  for (const std::int32_t e : edges) {
-    const Plan& plan = plans[static_cast<std::size_t>(e)];
-    up += misfit(plan.count + 1.0, plan.wanted());
-    down += misfit(std::max(plan.count - 1.0, 0.5), plan.wanted());
-    canShrink = canShrink && plan.count > plan.least;
-  }
-  return canShrink && down < up ? Step{std::move(edges), -1, down} : Step{std::move(edges), 1, up};
-}
-
-/// Per edge: the faces that use it an odd number of times.
-std::vector<std::vector<std::int32_t>> oddUses(const Brep& brep) {
-  std::vector<std::vector<std::int32_t>> uses(brep.edges.size());
-  for (std::size_t f = 0; f < brep.faces.size(); ++f) {
-    const auto face = static_cast<std::int32_t>(f);
-    for (const BrepLoop& loop : brep.faces[f].loops) {
-      for (const Coedge& coedge : loop.coedges) {
-        auto& of = uses[static_cast<std::size_t>(coedge.edge)];
-        if (!of.empty() && of.back() == face) {
-          of.pop_back();
-        } else {
-          of.push_back(face);
-        }
-      }
-    }
-  }
-  return uses;
+Step stepOf(const Plan& plan) {
+  const double up = misfit(plan.count + 1.0, plan.wanted());
+  const double down = misfit(std::max(plan.count - 1.0, 0.5), plan.wanted());
+  return plan.count > plan.least && down < up ? Step{-1, down} : Step{1, up};
 }
 
 /// Makes the number of divisions around each face even wherever that is possible; returns the number of odd faces.
-std::int64_t makeEven(std::vector<Plan>& plans, const Brep& brep,
-                      const std::vector<std::vector<std::int32_t>>& groups) {
-  // Worse than the change itself: opposite sides of a regular face that differ.
-  constexpr double kBrokenGroup = 0.5;
+std::int64_t makeEven(std::vector<Plan>& plans, const Brep& brep) {
   const auto uses = oddUses(brep);
   std::vector<bool> odd(brep.faces.size(), false);
-  for (std::size_t e = 0; e < plans.size(); ++e) {
-    if (plans[e].count % 2 == 0) continue;
-    for (const std::int32_t f : uses[e]) odd[static_cast<std::size_t>(f)] = !odd[static_cast<std::size_t>(f)];
-  }
-  std::vector<bool> grouped(plans.size(), false);
-  std::vector<Step> steps;
-  for (const auto& group : groups) {
-    for (const std::int32_t e : group) grouped[static_cast<std::size_t>(e)] = true;
-    const bool isFixed = std::any_of(group.begin(), group.end(),
-                                     [&](std::int32_t e) { return plans[static_cast<std::size_t>(e)].asGiven; });
-    if (!isFixed) steps.push_back(stepOf(plans, group));
-  }
-  for (std::size_t e = 0; e < plans.size(); ++e) {
-    if (plans[e].asGiven) continue;
-    steps.push_back(stepOf(plans, {static_cast<std::int32_t>(e)}));
-    if (grouped[e]) steps.back().cost += kBrokenGroup;
-  }
+  std::vector<std::size_t> changing;
   std::vector<ParityChange> changes;
-  for (const Step& step : steps) {
-    ParityChange change{{}, step.cost};
-    for (const std::int32_t e : step.edges) {
-      std::vector<std::int32_t> sum;
-      const auto& of = uses[static_cast<std::size_t>(e)];
-      std::set_symmetric_difference(change.faces.begin(), change.faces.end(), of.begin(), of.end(),
-                                    std::back_inserter(sum));
-      change.faces = std::move(sum);
+  for (std::size_t e = 0; e < plans.size(); ++e) {
+    if (plans[e].count % 2 != 0) {
+      for (const std::int32_t f : uses[e]) odd[static_cast<std::size_t>(f)] = !odd[static_cast<std::size_t>(f)];
     }
-    changes.push_back(std::move(change));
+    if (plans[e].asGiven) continue;
+    changing.push_back(e);
+    changes.push_back({uses[e], stepOf(plans[e]).cost});
   }
   const ParitySolution solution = solveParity(std::move(odd), changes);
-  std::vector<std::int32_t> by(plans.size(), 0);
-  for (std::size_t s = 0; s < steps.size(); ++s) {
-    if (!solution.apply[s]) continue;
-    // An edge that changes with its group and on its own stays as it was.
-    for (const std::int32_t e : steps[s].edges) {
-      std::int32_t& of = by[static_cast<std::size_t>(e)];
-      of = of == 0 ? steps[s].by : 0;
-    }
+  for (std::size_t c = 0; c < changing.size(); ++c) {
+    Plan& plan = plans[changing[c]];
+    if (solution.apply[c]) plan.count += stepOf(plan).by;
   }
-  for (std::size_t e = 0; e < plans.size(); ++e) plans[e].count += by[e];
   return solution.oddFaces;
 }
 
@@ -233,6 +161,13 @@ void fillSmallLoops(std::vector<Plan>& plans, const Brep& brep) {
         plans[static_cast<std::size_t>(loop.coedges[longest].edge)].count += 2;
     }
   }
+}
+
+void balance(std::vector<Plan>& plans, const TriangleMesh& mesh, const Brep& brep) {
+  std::vector<EdgeCount> counts;
+  for (const Plan& plan : plans) counts.push_back({plan.wanted(), plan.least, plan.count, plan.asGiven});
+  balanceSides(mesh, brep, counts);
+  for (std::size_t e = 0; e < plans.size(); ++e) plans[e].count = counts[e].count;
 }
 
 void placeNodes(DividedEdges& divided, const Plan& plan, const BrepEdge& edge) {
@@ -262,19 +197,16 @@ void placeNodes(DividedEdges& divided, const Plan& plan, const BrepEdge& edge) {
 DividedEdges divideEdges(const TriangleMesh& mesh, const Brep& brep, const SizeField& size,
                          const std::vector<std::int32_t>& minimumDivisions, const std::vector<std::uint8_t>& asGiven) {
   std::vector<Plan> plans;
-  std::vector<double> wanted;
   for (std::size_t e = 0; e < brep.edges.size(); ++e) {
     const std::int32_t minimum = e < minimumDivisions.size() ? minimumDivisions[e] : 1;
     plans.push_back(planEdge(mesh, brep.edges[e], size, e, minimum));
     if (e < asGiven.size() && asGiven[e] != 0) keepPoints(plans.back());
-    wanted.push_back(std::max(plans.back().wanted(), static_cast<double>(plans.back().least)));
   }
   separateParallelEdges(plans, brep);
-  const auto groups = oppositeEdges(brep, wanted);
-  settleGroups(plans, groups);
 
   DividedEdges divided;
-  divided.oddFaces = makeEven(plans, brep, groups);
+  divided.oddFaces = makeEven(plans, brep);
+  balance(plans, mesh, brep);
   fillSmallLoops(plans, brep);
   for (const BrepVertex& vertex : brep.vertices) {
     divided.nodes.push_back(mesh.positions[static_cast<std::size_t>(vertex.point)]);

@@ -35,8 +35,7 @@ double sizeByTurning(const Turning& turning, double s, double maxTurn, double mo
 
 void EdgeSamples::lower(std::int32_t edge, double s, double size) {
   EdgeSizes& on = sizes[static_cast<std::size_t>(edge)];
-  const auto above = std::upper_bound(on.arcLength.begin() + 1, on.arcLength.end() - 1, s);
-  const auto after = static_cast<std::size_t>(above - on.arcLength.begin());
+  const std::size_t after = on.sampleAfter(s);
   on.value[after] = std::min(on.value[after], size);
   on.value[after - 1] = std::min(on.value[after - 1], size);
 }
@@ -95,6 +94,38 @@ void limitByGaps(EdgeSamples& samples, const std::vector<Gap>& gaps, double lowe
     // A strip can take elements longer than it is wide: the mean of both lengths keeps count and aspect at bay.
     const double size = std::max(lowest, std::sqrt(gap.distance * samples.base));
     for (std::size_t end = 0; end < 2; ++end) samples.lower(gap.edge[end], gap.arcLength[end], size);
+  }
+}
+
+void levelAcross(EdgeSamples& samples, const std::vector<Gap>& gaps) {
+  constexpr double kOneRow = 1.5;  // In units of the size.
+  struct Sum {
+    double logs = 0.0;
+    int count = 0;
+  };
+  std::vector<std::vector<Sum>> sums;
+  for (const EdgeSizes& sizes : samples.sizes) sums.emplace_back(sizes.value.size());
+  for (const Gap& gap : gaps) {
+    std::array<double, 2> size{};
+    for (std::size_t end = 0; end < 2; ++end) {
+      const EdgeSizes& on = samples.sizes[static_cast<std::size_t>(gap.edge[end])];
+      size[end] = interpolate(on.arcLength, on.value, gap.arcLength[end]);
+    }
+    if (gap.distance > kOneRow * std::min(size[0], size[1])) continue;
+    const double change = 0.5 * math::log(size[1] / size[0]);
+    for (std::size_t end = 0; end < 2; ++end) {
+      const auto e = static_cast<std::size_t>(gap.edge[end]);
+      const std::size_t after = samples.sizes[e].sampleAfter(gap.arcLength[end]);
+      for (const std::size_t i : {after - 1, after}) {
+        sums[e][i].logs += end == 0 ? change : -change;
+        ++sums[e][i].count;
+      }
+    }
+  }
+  for (std::size_t e = 0; e < sums.size(); ++e) {
+    for (std::size_t i = 0; i < sums[e].size(); ++i) {
+      if (sums[e][i].count > 0) samples.sizes[e].value[i] *= math::exp(sums[e][i].logs / sums[e][i].count);
+    }
   }
 }
 

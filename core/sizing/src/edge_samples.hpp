@@ -46,4 +46,8 @@ std::optional<std::vector<Gap>> findGaps(const std::vector<EdgeCurve>& curves, c
 /// Lowers sizes at both ends of gaps narrower than the size.
 void limitByGaps(EdgeSamples& samples, const std::vector<Gap>& gaps, double lowest);
 
+/// Where a gap is one element wide, gives both ends the geometric mean of their sizes: a row of elements has no room
+/// for a change of their number from one side to the other.
+void levelAcross(EdgeSamples& samples, const std::vector<Gap>& gaps);
+
 }  // namespace qmcf

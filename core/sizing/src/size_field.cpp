@@ -194,6 +194,7 @@ Result<SizeField> computeSizeField(const TriangleMesh& mesh, const Brep& brep, c
     if (std::fabs(ratio - 1.0) < kCountTolerance) break;
     field.base = std::clamp(search.next(field.base, ratio), base.value(), reach);
   }
+  levelAcross(samples, *gaps);
   field.value = vertexSizes(mesh, brep, samples, field.limits, options.gradation);
   field.edges = std::move(samples.sizes);
   return field;

@@ -132,6 +132,33 @@ TEST(DivideEdges, RimsOfANarrowRingAgreeAndThoseOfAWideOneNeedNot) {
   EXPECT_GT(std::max(divisions(wide, 0), divisions(wide, 1)), 3 * std::min(divisions(wide, 0), divisions(wide, 1)));
 }
 
+/// Divisions of the edges that run along x at height y, in sum.
+std::int64_t divisionsAt(const Divided& d, double y) {
+  std::int64_t sum = 0;
+  for (std::size_t e = 0; e < d.brep.edges.size(); ++e) {
+    const auto& points = d.brep.edges[e].points;
+    const auto isThere = [&](std::int32_t p) { return d.mesh.positions[static_cast<std::size_t>(p)].y == y; };
+    if (isThere(points.front()) && isThere(points.back())) sum += divisions(d, static_cast<std::int32_t>(e));
+  }
+  return sum;
+}
+
+TEST(DivideEdges, SidesOfAnLMatchInSum) {
+  // Each side by itself would be rounded: 7 below, 3 and 3 above.
+  const Divided d = divide(parts::sheet({0, 3.4, 6.8}, {0, 5, 10}, [](int i, int j) { return i == 0 || j == 0; }), 1.0);
+  EXPECT_EQ(d.edges.oddFaces, 0);
+  EXPECT_EQ(divisionsAt(d, 0.0), divisionsAt(d, 5.0) + divisionsAt(d, 10.0));
+}
+
+TEST(DivideEdges, OuterSidesOfANarrowFrameHaveTwoDivisionsMore) {
+  // Each side by itself would be rounded: 11 outside, 8 inside.
+  const auto isFrame = [](int i, int j) { return i != 1 || j != 1; };
+  const Divided d = divide(parts::sheet({0, 1.2, 9.4, 10.6}, {0, 1.2, 12.4, 13.6}, isFrame), 1.0);
+  EXPECT_EQ(d.edges.oddFaces, 0);
+  EXPECT_EQ(divisionsAt(d, 0.0), divisionsAt(d, 1.2) + 2);
+  EXPECT_EQ(divisionsAt(d, 13.6), divisionsAt(d, 12.4) + 2);
+}
+
 TEST(DivideEdges, SheetsAtANonManifoldEdgeAreEven) {
   for (const double size : {0.13, 0.21, 0.34, 0.55}) {
     const Divided d = divide(parts::tee(), size);

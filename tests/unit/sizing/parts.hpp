@@ -133,6 +133,24 @@ inline TriangleMesh sphere(int cells) {
   return mesh;
 }
 
+/// A flat sheet of rectangles between the given lines; `keep` says which stay.
+template <class Keep>
+TriangleMesh sheet(const std::vector<double>& xs, const std::vector<double>& ys, Keep keep) {
+  TriangleMesh mesh;
+  const auto columns = static_cast<std::int32_t>(xs.size());
+  const auto rows = static_cast<std::int32_t>(ys.size());
+  for (const double y : ys) {
+    for (const double x : xs) mesh.positions.push_back({x, y, 0.0});
+  }
+  for (std::int32_t j = 0; j + 1 < rows; ++j) {
+    for (std::int32_t i = 0; i + 1 < columns; ++i) {
+      const std::int32_t a = j * columns + i;
+      if (keep(i, j)) addQuad(mesh, a, a + 1, a + columns + 1, a + columns);
+    }
+  }
+  return mesh;
+}
+
 /// Three unit sheets that meet in one edge along z, divided as asked along that edge and around.
 inline TriangleMesh tee() {
   TriangleMesh mesh;

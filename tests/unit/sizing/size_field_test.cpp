@@ -107,6 +107,29 @@ TEST(SizeField, NarrowGapsRefineAndOpenSpacesDoNot) {
   EXPECT_DOUBLE_EQ(farAway, 1.0);
 }
 
+TEST(SizeField, IsTheSameOnBothSidesOfAStripOneElementWide) {
+  // A narrow tower makes for small elements on the upper side of the strip below it.
+  const auto isThere = [](int i, int j) { return j == 0 || i == 1; };
+  const TriangleMesh mesh = parts::sheet({0, 10, 10.4, 20}, {0, 0.7, 4}, isThere);
+  const Brep brep = parts::brepOf(mesh);
+  const SizeField field = sizesOf(mesh, brep, ofSize(1.0));
+  const auto sizeAt = [&](double x, double y) {
+    for (std::size_t e = 0; e < brep.edges.size(); ++e) {
+      const EdgeCurve curve = edgeCurve(mesh, brep.edges[e]);
+      for (double s = 0.0; s < curve.length(); s += 0.01) {
+        if (distance(curve.at(s), {x, y, 0.0}) < 0.006)
+          return interpolate(field.edges[e].arcLength, field.edges[e].value, s);
+      }
+    }
+    return 0.0;
+  };
+  for (const double x : {9.0, 9.5, 11.0}) {
+    const double below = sizeAt(x, 0.0);
+    EXPECT_GT(below, 0.2);
+    EXPECT_NEAR(below / sizeAt(x, 0.7), 1.0, 0.03) << x;
+  }
+}
+
 TEST(SizeField, SlopeIsBoundedAlongAndAcrossTheFace) {
   const TriangleMesh mesh = parts::plateWithHole(10.0, {3.0, 2.0, 0.0}, 0.5, 32);
   const Brep brep = parts::brepOf(mesh);

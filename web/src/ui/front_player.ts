@@ -18,6 +18,7 @@ const stepNames: Readonly<Record<TraceKind, string>> = {
   transition: 'Transition between sizes',
   leftover: 'What the front left over',
   paired: 'Fallback: triangles paired',
+  strip: 'One row of elements',
   triangulated: 'Fallback: triangles as they are',
   cleanup: 'Clean-up begins',
   smooth: 'Clean-up: relaxed',
@@ -32,7 +33,7 @@ const stepNames: Readonly<Record<TraceKind, string>> = {
 
 /** Steps that are more than one more quad: where one would like to look. */
 const events: ReadonlySet<TraceKind> = new Set([
-  'start', 'star', 'seed', 'closure', 'seam', 'transition', 'leftover', 'paired', 'triangulated', 'cleanup', 'collapse', 'refill', 'cavity', 'subdivision',
+  'start', 'star', 'seed', 'closure', 'seam', 'transition', 'leftover', 'paired', 'strip', 'triangulated', 'cleanup', 'collapse', 'refill', 'cavity', 'subdivision',
 ] as const);
 
 const stateNames = ['both sides there', 'one side missing', 'both missing', 'seam'] as const;

@@ -129,8 +129,9 @@ function methods({ report, faceNames }: MeshResult, zoomTo: (target: Target) => 
   const fallen = faces.filter(({ reason }) => reason !== '');
   if (fallen.length === 0) {
     const how = faces[0]?.method === 'qmorph' ? 'by the original Q-Morph' : 'along the cross field';
-    const text = faces.length === 1 ? `The face was meshed ${how}.` : `All ${format.count(faces.length)} faces were meshed ${how}.`;
-    return el('p', { class: 'facts' }, text);
+    const text = faces.length === 1 ? `The face was meshed ${how}` : `All ${format.count(faces.length)} faces were meshed ${how}`;
+    const narrow = faces.filter(({ method }) => method === 'strip').length;
+    return el('p', { class: 'facts' }, narrow === 0 ? `${text}.` : `${text}; narrow ones, ${format.count(narrow)}, as one row of elements.`);
   }
   const items = fallen.map(({ face, method, reason }) =>
     el(

@@ -18,6 +18,7 @@ const edgeKindNames: Record<EdgeKind, string> = {
 export const methodNames: Record<FaceReport['method'], string> = {
   qmcf: 'cross field',
   qmorph: 'Q-Morph',
+  strip: 'one row',
   recombined: 'paired triangles',
   triangles: 'triangles only',
   given: 'the part’s own triangles',

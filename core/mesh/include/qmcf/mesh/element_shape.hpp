@@ -3,6 +3,7 @@
 #include <array>
 
 #include "qmcf/mesh/edit_mesh.hpp"
+#include "qmcf/mesh/face_mesh.hpp"
 
 namespace qmcf {
 
@@ -27,5 +28,9 @@ bool isDegenerate(const EditMesh& mesh, FaceId f);
 double worstShapeAround(const EditMesh& mesh, VertexId v);
 /// Whether worstShapeAround() is at least `least`, in (0, 1]; much faster where it is by far.
 bool isWellShapedAround(const EditMesh& mesh, VertexId v, double least);
+
+/// The smallest sine at the corners of an element, about the mean of the surface's normals there: 1 for a square, 0.87
+/// for an equilateral triangle, negative where a corner is turned over; -1 where a side has no length.
+double elementShape(const FaceMesh& mesh, const Element& element);
 
 }  // namespace qmcf

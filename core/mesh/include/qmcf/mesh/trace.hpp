@@ -22,6 +22,7 @@ enum class TraceKind : std::uint8_t {
   transition,    ///< An edge between a short and a long one that was split.
   leftover,      ///< What the front could not mesh, as triangles and pairs of them.
   paired,        ///< Instead of a front: the triangulation with its triangles paired. Begins anew.
+  strip,         ///< Instead of a front: one row of elements between the nodes of the boundary. Begins anew.
   triangulated,  ///< Instead of a front: the triangulation as it is. Begins anew.
   cleanup,       ///< The mesh that is handed to the clean-up. Begins anew.
   smooth,        ///< Vertices that were relaxed.

@@ -50,7 +50,7 @@ struct MeshOptions {
 /// How one face was meshed.
 struct FaceReport {
   std::int32_t face = kNone;
-  std::string method;  ///< "qmcf", "qmorph", "recombined", "triangles", "given": the step that worked; "omitted".
+  std::string method;  ///< "qmcf", "qmorph", "strip", "recombined", "triangles", "given": what worked; "omitted".
   std::string reason;  ///< Why the earlier steps did not; empty for the first.
   std::int64_t quads = 0;
   std::int64_t triangles = 0;

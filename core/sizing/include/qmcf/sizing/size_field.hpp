@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -37,6 +39,12 @@ struct SizingOptions {
 struct EdgeSizes {
   std::vector<double> arcLength;  ///< From the start of the edge, ascending, from 0 to its length.
   std::vector<double> value;      ///< Per entry of arcLength, > 0.
+
+  /// The first sample after arc length s; the last one, where there is none, and never the first of all.
+  [[nodiscard]] std::size_t sampleAfter(double s) const {
+    const auto above = std::upper_bound(arcLength.begin() + 1, arcLength.end() - 1, s);
+    return static_cast<std::size_t>(above - arcLength.begin());
+  }
 };
 
 /// Target edge length over the repaired mesh. Inside a face it is the lower envelope of the cones that rise with slope

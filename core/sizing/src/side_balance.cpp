@@ -1,0 +1,427 @@
+#include "side_balance.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdlib>
+#include <limits>
+#include <optional>
+#include <span>
+#include <utility>
+
+#include "face_uses.hpp"
+
+namespace qmcf {
+namespace {
+
+std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
+
+/// A sum of divisions and what a regular grid makes it.
+struct Row {
+  std::vector<std::int32_t> edges;    ///< Ascending, each once.
+  std::vector<std::int32_t> factors;  ///< Per edge, not zero.
+  std::int32_t target = 0;
+  std::int32_t face = kNone;
+  double weight = 1.0;  ///< Cost of a unit that the sum differs from the target by.
+};
+
+/// The quarter turns along a loop, in total; 4 for a convex one.
+std::int32_t turnOf(const BrepLoop& loop) {
+  std::int32_t turn = 0;
+  for (const Coedge& coedge : loop.coedges) turn += 2 - coedge.cornerQuads;
+  return turn;
+}
+
+bool isSmooth(const BrepLoop& loop) {
+  return std::all_of(loop.coedges.begin(), loop.coedges.end(), [](const Coedge& c) { return c.cornerQuads == 2; });
+}
+
+/// One outline with four corners more to the left than to the right, and holes with four more to the right.
+bool isRectilinear(const BrepFace& face) {
+  if (face.loops.empty()) return false;
+  std::size_t outlines = 0;
+  for (const BrepLoop& loop : face.loops) {
+    const std::int32_t turn = turnOf(loop);
+    if (turn != 4 && turn != -4) return false;
+    outlines += turn == 4 ? 1 : 0;
+  }
+  return outlines == 1;
+}
+
+bool isRing(const BrepFace& face) {
+  return face.loops.size() == 2 && isSmooth(face.loops[0]) && isSmooth(face.loops[1]);
+}
+
+/// Elements across a face, on the mean.
+double rowsAcross(const Brep& brep, const BrepFace& face, const std::vector<EdgeCount>& edges) {
+  double length = 0.0;
+  double wanted = 0.0;
+  for (const BrepLoop& loop : face.loops) {
+    for (const Coedge& coedge : loop.coedges) {
+      length += brep.edges[at(coedge.edge)].length;
+      wanted += edges[at(coedge.edge)].wanted;
+    }
+  }
+  return length > 0.0 ? 2.0 * face.area / length * wanted / length : 0.0;
+}
+
+constexpr double kFewRows = 2.0;
+
+/// In a face of one or two rows there is no room for the two irregular vertices: they become triangles.
+double weightOf(double rows) {
+  constexpr double kNarrow = 3.0;
+  return rows < kFewRows ? kNarrow : 1.0;
+}
+
+/// Whether the sizes let the two sides match: nearly as many divisions on both.
+bool canMatch(const Row& row, const std::vector<EdgeCount>& edges) {
+  constexpr double kDifference = 1.0;
+  constexpr double kRatio = 1.15;
+  constexpr double kNarrowRatio = 1.7;
+  double ahead = 0.0;
+  double back = row.target;
+  for (std::size_t i = 0; i < row.edges.size(); ++i) {
+    const double wanted = std::max(edges[at(row.edges[i])].wanted, static_cast<double>(edges[at(row.edges[i])].least));
+    (row.factors[i] > 0 ? ahead : back) += std::abs(row.factors[i]) * wanted;
+  }
+  const double ratio = row.weight > 1.0 ? kNarrowRatio : kRatio;
+  return std::fabs(ahead - back) <= kDifference || std::max(ahead, back) <= ratio * std::min(ahead, back);
+}
+
+/// Collects the rows of the faces.
+class RowFinder {
+ public:
+  RowFinder(const TriangleMesh& mesh, const Brep& brep, const std::vector<EdgeCount>& edges)
+      : mesh_(mesh), brep_(brep), edges_(edges), sums_(brep.edges.size(), 0) {}
+
+  std::vector<Row> find() {
+    for (std::size_t f = 0; f < brep_.faces.size(); ++f) {
+      const BrepFace& face = brep_.faces[f];
+      face_ = static_cast<std::int32_t>(f);
+      acrossFace_ = rowsAcross(brep_, face, edges_);
+      if (isRectilinear(face)) {
+        for (const BrepLoop& loop : face.loops) addLoop(loop);
+        if (face.loops.size() == 2 && acrossFace_ < kFewRows) addFrame(face);
+      } else if (isRing(face)) {
+        add(face.loops[0].coedges, 1);
+        add(face.loops[1].coedges, -1);
+        close(0);
+      }
+    }
+    return std::move(rows_);
+  }
+
+ private:
+  void add(std::span<const Coedge> coedges, std::int32_t factor) {
+    for (const Coedge& coedge : coedges) {
+      std::int32_t& sum = sums_[at(coedge.edge)];
+      if (sum == 0) touched_.push_back(coedge.edge);
+      sum += factor;
+    }
+  }
+
+  /// Makes a row of what was added.
+  void close(std::int32_t target) {
+    Row row;
+    row.face = face_;
+    row.target = target;
+    row.weight = weightOf(acrossFace_);
+    std::sort(touched_.begin(), touched_.end());
+    touched_.erase(std::unique(touched_.begin(), touched_.end()), touched_.end());
+    for (const std::int32_t edge : touched_) {
+      if (sums_[at(edge)] == 0) continue;
+      row.edges.push_back(edge);
+      row.factors.push_back(sums_[at(edge)]);
+      sums_[at(edge)] = 0;
+    }
+    touched_.clear();
+    if (!row.edges.empty() && canMatch(row, edges_)) rows_.push_back(std::move(row));
+  }
+
+  /// Divisions one way and back, along both axes.
+  void addLoop(const BrepLoop& loop) {
+    for (std::int32_t axis = 0; axis < 2; ++axis) {
+      std::int32_t direction = 0;
+      for (const Coedge& coedge : loop.coedges) {
+        direction += 2 - coedge.cornerQuads + 4;
+        if (direction % 2 == axis) add({&coedge, 1}, direction % 4 < 2 ? 1 : -1);
+      }
+      close(0);
+    }
+  }
+
+  /// The four sides of an outline and those of a hole one row inside: each is two elements longer than the other.
+  void addFrame(const BrepFace& face) {
+    const bool isFirst = turnOf(face.loops[0]) == 4;
+    const auto outer = sidesOf(face.loops[isFirst ? 0 : 1], 1);
+    const auto inner = sidesOf(face.loops[isFirst ? 1 : 0], 3);
+    if (!outer || !inner) return;
+    // The hole is run through the other way round. Its sides end where those of the outline start.
+    double least = std::numeric_limits<double>::infinity();
+    std::size_t shift = 0;
+    for (std::size_t s = 0; s < 4; ++s) {
+      double sum = 0.0;
+      for (std::size_t i = 0; i < 4; ++i) {
+        sum += distance(cornerOf((*outer)[i]), cornerOf((*inner)[(s + 5 - i) % 4]));
+      }
+      if (sum < least) {
+        least = sum;
+        shift = s;
+      }
+    }
+    for (std::size_t i = 0; i < 4; ++i) {
+      add((*outer)[i], 1);
+      add((*inner)[(shift + 4 - i) % 4], -1);
+      close(2);
+    }
+  }
+
+  /// The coedges between the four corners of a loop.
+  [[nodiscard]] static std::optional<std::array<std::vector<Coedge>, 4>> sidesOf(const BrepLoop& loop,
+                                                                                std::int32_t cornerQuads) {
+    const auto isCorner = [](const Coedge& coedge) { return coedge.cornerQuads != 2; };
+    const auto first = std::find_if(loop.coedges.begin(), loop.coedges.end(), isCorner);
+    std::vector<Coedge> turned(first, loop.coedges.end());
+    turned.insert(turned.end(), loop.coedges.begin(), first);
+    std::array<std::vector<Coedge>, 4> sides;
+    std::size_t corners = 0;
+    for (const Coedge& coedge : turned) {
+      if (isCorner(coedge)) {
+        if (coedge.cornerQuads != cornerQuads || ++corners > 4) return std::nullopt;
+      }
+      sides[corners - 1].push_back(coedge);
+    }
+    if (corners != 4) return std::nullopt;
+    return sides;
+  }
+
+  /// Where a side starts.
+  [[nodiscard]] const Vec3& cornerOf(const std::vector<Coedge>& side) const {
+    const BrepEdge& edge = brep_.edges[at(side.front().edge)];
+    const std::int32_t vertex = side.front().reversed ? edge.end : edge.start;
+    return mesh_.positions[at(brep_.vertices[at(vertex)].point)];
+  }
+
+  const TriangleMesh& mesh_;
+  const Brep& brep_;
+  const std::vector<EdgeCount>& edges_;
+  std::vector<Row> rows_;
+  std::int32_t face_ = kNone;
+  double acrossFace_ = 0.0;                ///< Elements across the face.
+  std::vector<std::int32_t> sums_;         ///< Per edge: the factor of the row being made.
+  std::vector<std::int32_t> touched_;
+};
+
+std::int32_t mismatchOf(const Row& row, const std::vector<EdgeCount>& edges) {
+  std::int32_t value = -row.target;
+  for (std::size_t i = 0; i < row.edges.size(); ++i) value += row.factors[i] * edges[at(row.edges[i])].count;
+  return value;
+}
+
+/// Cost of an edge that departs from what the sizes ask for, in units of a pair of irregular vertices.
+double departure(const EdgeCount& edge, std::int32_t count) {
+  constexpr double kStretch = 4.0;
+  constexpr double kLeastWanted = 0.5;
+  const double wanted = std::max(edge.wanted, kLeastWanted);
+  const double stretch = std::log(count / wanted);
+  return kStretch * wanted * stretch * stretch;
+}
+
+/// An edge changed by one.
+struct Change {
+  std::int32_t edge = kNone;
+  std::int32_t by = 0;
+
+  [[nodiscard]] std::size_t id() const { return 2 * at(edge) + (by > 0 ? 1 : 0); }
+};
+
+class Balance {
+ public:
+  Balance(const TriangleMesh& mesh, const Brep& brep, std::vector<EdgeCount>& edges)
+      : edges_(edges), uses_(oddUses(brep)), rows_(RowFinder(mesh, brep, edges).find()), terms_(brep.edges.size()) {
+    ground_ = static_cast<std::int32_t>(brep.faces.size());
+    changing_.resize(brep.faces.size() + 1);
+    for (std::size_t e = 0; e < edges_.size(); ++e) {
+      if (edges_[e].fixed || uses_[e].empty() || uses_[e].size() > 2) continue;
+      if (uses_[e].size() == 1) uses_[e].push_back(ground_);
+      for (const std::int32_t face : uses_[e]) changing_[at(face)].push_back(static_cast<std::int32_t>(e));
+    }
+    rowsOfFace_.resize(brep.faces.size() + 1);
+    for (std::size_t r = 0; r < rows_.size(); ++r) {
+      value_.push_back(mismatchOf(rows_[r], edges_));
+      rowsOfFace_[at(rows_[r].face)].push_back(r);
+      for (std::size_t i = 0; i < rows_[r].edges.size(); ++i) {
+        terms_[at(rows_[r].edges[i])].push_back({rows_[r].face, r, rows_[r].factors[i]});
+      }
+    }
+    label_.resize(2 * edges_.size());
+  }
+
+  void run() {
+    constexpr int kPasses = 6;
+    for (int pass = 0; pass < kPasses; ++pass) {
+      bool improved = false;
+      for (std::int32_t face = 0; face < ground_; ++face) {
+        while (hasMismatch(face) && improve(face)) improved = true;
+      }
+      if (!improved || budget_ < 0) return;
+    }
+  }
+
+ private:
+  struct Term {
+    std::int32_t face = kNone;
+    std::size_t row = 0;
+    std::int32_t factor = 0;
+  };
+  /// The cheapest known walk that ends with a change.
+  struct Label {
+    double cost = std::numeric_limits<double>::infinity();
+    Change before;               ///< None: the walk starts here.
+    std::int32_t next = kNone;   ///< The face that the walk goes on to.
+    bool queued = false;
+  };
+
+  [[nodiscard]] bool hasMismatch(std::int32_t face) const {
+    const auto& rows = rowsOfFace_[at(face)];
+    return std::any_of(rows.begin(), rows.end(), [&](std::size_t r) { return value_[r] != 0; });
+  }
+
+  [[nodiscard]] std::int32_t beyond(std::int32_t edge, std::int32_t face) const {
+    return uses_[at(edge)][0] == face ? uses_[at(edge)][1] : uses_[at(edge)][0];
+  }
+
+  [[nodiscard]] bool allowed(const Change& change) const {
+    const EdgeCount& edge = edges_[at(change.edge)];
+    return change.by > 0 || edge.count > edge.least;
+  }
+
+  [[nodiscard]] double costOf(const Change& change) const {
+    const EdgeCount& edge = edges_[at(change.edge)];
+    return departure(edge, edge.count + change.by) - departure(edge, edge.count);
+  }
+
+  /// What two changes do to the mismatch of a face.
+  [[nodiscard]] double costIn(std::int32_t face, const Change& a, const Change& b) const {
+    double cost = 0.0;
+    const auto unitsOf = [&](const Change& change, std::size_t row) {
+      std::int32_t units = 0;
+      for (const Term& term : terms_[at(change.edge)]) {
+        if (term.row == row) units += term.factor * change.by;
+      }
+      return units;
+    };
+    const auto add = [&](std::size_t row) {
+      const std::int32_t after = value_[row] + unitsOf(a, row) + unitsOf(b, row);
+      cost += rows_[row].weight * (std::abs(after) - std::abs(value_[row]));
+    };
+    for (const Term& term : terms_[at(a.edge)]) {
+      if (term.face == face) add(term.row);
+    }
+    for (const Term& term : terms_[at(b.edge)]) {
+      if (term.face != face) continue;
+      const auto& first = terms_[at(a.edge)];
+      if (std::none_of(first.begin(), first.end(), [&](const Term& t) { return t.row == term.row; })) add(term.row);
+    }
+    return cost;
+  }
+
+  [[nodiscard]] bool passes(const Change& end, std::int32_t face, std::int32_t start) const {
+    if (face == start) return true;
+    for (Change c = end; c.edge != kNone; c = label_[c.id()].before) {
+      if (label_[c.id()].next == face) return true;
+    }
+    return false;
+  }
+
+  /// Applies the best closed walk that starts in `face` and lowers the cost.
+  bool improve(std::int32_t face) {
+    double best = -kLeastGain;
+    std::vector<Change> bestWalk;
+    for (const std::int32_t edge : changing_[at(face)]) {
+      for (const std::int32_t by : {-1, 1}) {
+        const Change last{edge, by};
+        if (allowed(last)) search(face, last, best, bestWalk);
+      }
+    }
+    for (const Change& change : bestWalk) {
+      edges_[at(change.edge)].count += change.by;
+      for (const Term& term : terms_[at(change.edge)]) value_[term.row] += term.factor * change.by;
+    }
+    return !bestWalk.empty();
+  }
+
+  /// Closed walks from `start` over other faces back to it by the change `last`. Of a walk that lowers the cost some
+  /// rotation has no beginning that raises it, so that such beginnings need not be followed.
+  void search(std::int32_t start, const Change& last, double& best, std::vector<Change>& bestWalk) {
+    std::vector<Change> queue;
+    std::vector<Change> touched;
+    const auto reach = [&](const Change& before, const Change& change, double cost, std::int32_t next) {
+      Label& label = label_[change.id()];
+      if (cost >= label.cost - kLeastGain || cost >= -kLeastGain) return;
+      if (before.edge != kNone && passes(before, next, start)) return;
+      if (label.cost == std::numeric_limits<double>::infinity()) touched.push_back(change);
+      label.cost = cost;
+      label.before = before;
+      label.next = next;
+      if (!label.queued) queue.push_back(change);
+      label.queued = true;
+    };
+    const std::int32_t lastFace = beyond(last.edge, start);
+    const double lastCost = costOf(last);
+    for (const std::int32_t edge : changing_[at(start)]) {
+      if (edge == last.edge) continue;
+      for (const std::int32_t by : {-1, 1}) {
+        const Change change{edge, by};
+        if (allowed(change)) reach({}, change, costIn(start, last, change) + costOf(change), beyond(edge, start));
+      }
+    }
+    for (std::size_t i = 0; i < queue.size() && budget_ > 0; ++i) {
+      const Change change = queue[i];
+      label_[change.id()].queued = false;
+      const double cost = label_[change.id()].cost;
+      const std::int32_t face = label_[change.id()].next;
+      budget_ -= static_cast<std::int64_t>(changing_[at(face)].size());
+      if (face == lastFace) {
+        const double total = cost + lastCost + (face == ground_ ? 0.0 : costIn(face, change, last));
+        if (total < best) {
+          best = total;
+          bestWalk = {last};
+          for (Change c = change; c.edge != kNone; c = label_[c.id()].before) bestWalk.push_back(c);
+        }
+      }
+      for (const std::int32_t edge : changing_[at(face)]) {
+        if (edge == change.edge || edge == last.edge) continue;
+        for (const std::int32_t by : {-1, 1}) {
+          const Change next{edge, by};
+          if (!allowed(next)) continue;
+          const double inFace = face == ground_ ? 0.0 : costIn(face, change, next);
+          reach(change, next, cost + inFace + costOf(next), beyond(edge, face));
+        }
+      }
+    }
+    for (const Change& change : touched) label_[change.id()] = {};
+  }
+
+  static constexpr double kLeastGain = 1e-6;
+
+  std::vector<EdgeCount>& edges_;
+  std::vector<std::vector<std::int32_t>> uses_;  ///< Per edge that may change: the two faces beside it.
+  std::vector<Row> rows_;
+  std::vector<std::vector<Term>> terms_;  ///< Per edge.
+  std::vector<std::int32_t> value_;       ///< Per row.
+  std::vector<std::vector<std::size_t>> rowsOfFace_;
+  std::vector<std::vector<std::int32_t>> changing_;  ///< Per face, and beyond the open edges: edges that may change.
+  std::int32_t ground_ = 0;                          ///< Stands for a face beyond the open edges.
+  std::vector<Label> label_;                         ///< Per change.
+  std::int64_t budget_ = 50'000'000;
+};
+
+}  // namespace
+
+void balanceSides(const TriangleMesh& mesh, const Brep& brep, std::vector<EdgeCount>& edges) {
+  Balance(mesh, brep, edges).run();
+}
+
+}  // namespace qmcf
