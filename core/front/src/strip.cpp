@@ -144,7 +144,8 @@ class PolygonCutter {
 
   [[nodiscard]] bool isChord(std::int32_t a, std::int32_t b) const {
     const double reach = kReach * std::max({outline_.width, size(a), size(b)});
-    if (squaredNorm(position(a) - position(b)) > reach * reach || dot(normal(a), normal(b)) < kLeastNormal) return false;
+    if (squaredNorm(position(a) - position(b)) > reach * reach || dot(normal(a), normal(b)) < kLeastNormal)
+      return false;
     const std::int32_t v = polygon_[at(a)];
     const std::int32_t w = polygon_[at(b)];
     const std::size_t n = polygon_.size();
@@ -229,7 +230,8 @@ class PolygonCutter {
       const Cut* cut = cutOf(a, b);
       if (cut == nullptr || !(cut->cost < kInfinite)) return {};
       const bool isTriangle = cut->second == kNone;
-      made.push_back(atVertices(isTriangle ? Element{a, cut->first, b, kNone} : Element{a, cut->first, cut->second, b}));
+      made.push_back(
+          atVertices(isTriangle ? Element{a, cut->first, b, kNone} : Element{a, cut->first, cut->second, b}));
       open.push_back({a, cut->first});
       if (!isTriangle) open.push_back({cut->first, cut->second});
       open.push_back({isTriangle ? cut->first : cut->second, b});

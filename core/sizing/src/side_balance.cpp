@@ -179,7 +179,7 @@ class RowFinder {
 
   /// The coedges between the four corners of a loop.
   [[nodiscard]] static std::optional<std::array<std::vector<Coedge>, 4>> sidesOf(const BrepLoop& loop,
-                                                                                std::int32_t cornerQuads) {
+                                                                                 std::int32_t cornerQuads) {
     const auto isCorner = [](const Coedge& coedge) { return coedge.cornerQuads != 2; };
     const auto first = std::find_if(loop.coedges.begin(), loop.coedges.end(), isCorner);
     std::vector<Coedge> turned(first, loop.coedges.end());
@@ -208,8 +208,8 @@ class RowFinder {
   const std::vector<EdgeCount>& edges_;
   std::vector<Row> rows_;
   std::int32_t face_ = kNone;
-  double acrossFace_ = 0.0;                ///< Elements across the face.
-  std::vector<std::int32_t> sums_;         ///< Per edge: the factor of the row being made.
+  double acrossFace_ = 0.0;         ///< Elements across the face.
+  std::vector<std::int32_t> sums_;  ///< Per edge: the factor of the row being made.
   std::vector<std::int32_t> touched_;
 };
 
@@ -278,8 +278,8 @@ class Balance {
   /// The cheapest known walk that ends with a change.
   struct Label {
     double cost = std::numeric_limits<double>::infinity();
-    Change before;               ///< None: the walk starts here.
-    std::int32_t next = kNone;   ///< The face that the walk goes on to.
+    Change before;              ///< None: the walk starts here.
+    std::int32_t next = kNone;  ///< The face that the walk goes on to.
     bool queued = false;
   };
 
