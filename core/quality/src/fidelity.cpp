@@ -4,12 +4,11 @@
 #include <array>
 #include <cmath>
 
+#include "qmcf/quality/turned_over.hpp"
+
 namespace qmcf::quality {
 namespace {
 
-constexpr double kCornerInset =
-    0.25;  ///< Of the way from a corner to the element's centre: where its patch is looked for.
-constexpr double kPatchReach = 0.1;  ///< Of the square root of the element's area, beyond the distance to the patch.
 constexpr std::size_t kGapSamples = 2000;  ///< Vertices and triangles of the reference that are looked at, at most.
 
 /// The mesh as triangles: quadrilaterals become the fan around their centre.
@@ -68,31 +67,6 @@ void measureGaps(Distances& result, const MeasuredMesh& measured, const Referenc
   }
 }
 
-bool isTurnedOver(const MeasuredMesh& measured, std::size_t e, const Reference& reference,
-                  const ClosestPoint& projected) {
-  const Element& element = measured.mesh.elements[e];
-  const Vec3& centre = measured.centres[e];
-  const std::size_t corners = cornerCount(element);
-  const auto at = [&](std::size_t corner) -> const Vec3& {
-    return measured.mesh.positions[static_cast<std::size_t>(element[corner % corners])];
-  };
-  const auto normalOf = [&](std::int32_t treeTriangle) -> const Vec3& {
-    const auto triangle = static_cast<std::size_t>(reference.bvhTriangle[static_cast<std::size_t>(treeTriangle)]);
-    return reference.normals[triangle];
-  };
-  const Vec3& under = normalOf(projected.triangle);
-  for (std::size_t c = 0; c < corners; ++c) {
-    const Vec3 normal = cross(at(c + 1) - at(c), at(c + corners - 1) - at(c));
-    if (dot(normal, under) >= 0.0) continue;
-    const Vec3 point = at(c) + (centre - at(c)) * kCornerInset;
-    const double reach = distanceTo(reference.bvh, point) + kPatchReach * std::sqrt(measured.areas[e]);
-    const ClosestPoint agreeing = reference.bvh.closest(point, normalized(normal), 0.0);
-    const bool agrees = dot(normal, normalOf(agreeing.triangle)) >= 0.0 && agreeing.squaredDistance <= reach * reach;
-    if (!agrees) return true;
-  }
-  return false;
-}
-
 }  // namespace
 
 std::vector<ClosestPoint> projectCentres(const MeasuredMesh& measured, const Reference& reference) {
@@ -131,8 +105,12 @@ std::vector<std::int64_t> findTurnedOver(const MeasuredMesh& measured, const Ref
                                          const std::vector<ClosestPoint>& projected) {
   std::vector<std::int64_t> result;
   for (std::size_t e = 0; e < measured.mesh.elements.size(); ++e) {
-    if (measured.usable[e] != 0 && isTurnedOver(measured, e, reference, projected[e]))
-      result.push_back(static_cast<std::int64_t>(e));
+    if (measured.usable[e] == 0) continue;
+    const Element& element = measured.mesh.elements[e];
+    const std::size_t count = cornerCount(element);
+    std::array<Vec3, 4> corners;
+    for (std::size_t c = 0; c < count; ++c) corners[c] = measured.mesh.positions[static_cast<std::size_t>(element[c])];
+    if (turnedOverBy(reference.bvh, corners, count, projected[e]) > 0.0) result.push_back(static_cast<std::int64_t>(e));
   }
   return result;
 }

@@ -259,4 +259,25 @@ ClosestPoint TriangleBvh::closest(const Vec3& query, const Vec3& normal, double 
   return best.triangle >= 0 ? best : closest(query);
 }
 
+bool TriangleBvh::isAnyFacing(const Vec3& normal, const Vec3& query, double reach) const {
+  if (empty()) return false;
+  const double most = reach * reach;
+  std::vector<std::int32_t> open{0};
+  while (!open.empty()) {
+    const Node& node = nodes_[static_cast<std::size_t>(open.back())];
+    open.pop_back();
+    if (squaredDistanceToBox(query, node.low, node.high) > most) continue;
+    if (node.count == 0) {
+      open.push_back(node.first);
+      open.push_back(node.first + 1);
+    }
+    for (std::int32_t i = node.first; i < node.first + node.count; ++i) {
+      const auto index = static_cast<std::size_t>(i);
+      if (dot(normals_[index], normal) > 0.0 && closestOn(query, triangles_[index]).squaredDistance <= most)
+        return true;
+    }
+  }
+  return false;
+}
+
 }  // namespace qmcf

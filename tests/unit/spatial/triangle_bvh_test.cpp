@@ -117,6 +117,30 @@ TEST(TriangleBvh, NormalFilterKeepsToTheSheet) {
   EXPECT_DOUBLE_EQ(bvh.closest(query, {1.0, 0.0, 0.0}, 0.5).position.z, 0.1);
 }
 
+TEST(TriangleBvh, FindsWhetherAnyTriangleFacesAWay) {
+  const Soup soup = randomSoup(15, 300);
+  const TriangleBvh bvh(soup.positions, soup.triangles);
+  Random random(16);
+  int yes = 0;
+  for (int i = 0; i < 300; ++i) {
+    const Vec3 query = randomPoint(random, 1.2);
+    const Vec3 normal = randomPoint(random, 1.0);
+    const double reach = random.uniform(0.0, 0.3);
+    bool any = false;
+    for (std::size_t t = 0; t < soup.triangles.size(); ++t) {
+      const auto corner = [&](std::size_t c) { return soup.positions[static_cast<std::size_t>(soup.triangles[t][c])]; };
+      const ClosestPoint closest = closestPointOnTriangle(query, corner(0), corner(1), corner(2));
+      any = any ||
+            (closest.squaredDistance <= reach * reach && dot(bvh.normal(static_cast<std::int32_t>(t)), normal) > 0.0);
+    }
+    EXPECT_EQ(bvh.isAnyFacing(normal, query, reach), any);
+    yes += any ? 1 : 0;
+  }
+  EXPECT_GT(yes, 50);
+  EXPECT_LT(yes, 250);
+  EXPECT_FALSE(TriangleBvh({}, {}).isAnyFacing({0, 0, 1}, {}, 1.0));
+}
+
 TEST(TriangleBvh, HintChangesNothing) {
   const Soup soup = randomSoup(21, 300);
   const TriangleBvh bvh(soup.positions, soup.triangles);

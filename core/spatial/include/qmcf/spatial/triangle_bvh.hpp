@@ -40,6 +40,8 @@ class TriangleBvh {
   /// As above among triangles whose unit normal n has dot(n, normal) >= minCosine; without any such triangle, as above.
   [[nodiscard]] ClosestPoint closest(const Vec3& query, const Vec3& normal, double minCosine,
                                      std::int32_t hint = -1) const;
+  /// Whether a triangle no farther than `reach` has a unit normal n with dot(n, normal) > 0.
+  [[nodiscard]] bool isAnyFacing(const Vec3& normal, const Vec3& query, double reach) const;
 
  private:
   struct Node {
