@@ -274,6 +274,7 @@ bool TopologicalCleanup::fillWith(const SidePattern& pattern, const std::vector<
   // Written such that a NaN is no promise.
   if (!(promise.stretch <= before.stretch + kPromisedStretch * drop)) return false;
   if (!(promise.meanShape >= before.meanShape - kPromisedLoss)) return false;
+  if (cavity_.doublesEdge(mesh_, loop, pattern.cells)) return false;
   const double area = areaOf(mesh_, cavity);
   const std::vector<Vec3> centres = centresOf(mesh_, cavity);
   RelaxationTarget rough = target_;

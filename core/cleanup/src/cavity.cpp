@@ -32,8 +32,41 @@ std::optional<std::vector<HalfedgeId>> Cavity::boundaryLoop(const EditMesh& mesh
     h = mesh.next(h);
     while (!isBorder(h)) h = mesh.next(mesh.twin(h));
   } while (h != first);
-  if (loop.size() != borders) return std::nullopt;
+  if (loop.size() != borders || !isDisc(mesh, borders)) return std::nullopt;
   return loop;
+}
+
+bool Cavity::isDisc(const EditMesh& mesh, std::size_t borders) {
+  std::size_t corners = 0;
+  std::size_t vertices = 0;
+  met_.clear();
+  for (const FaceId f : faces_) {
+    for (const HalfedgeId h : mesh.sides(f)) {
+      if (!h.valid()) continue;
+      ++corners;
+      if (met_.insert(mesh.origin(h))) ++vertices;
+    }
+  }
+  const std::size_t edges = (corners + borders) / 2;
+  return vertices + faces_.size() == edges + 1;
+}
+
+bool Cavity::doublesEdge(const EditMesh& mesh, const std::vector<HalfedgeId>& loop,
+                         const std::vector<std::array<int, 4>>& cells) const {
+  const auto count = static_cast<int>(loop.size());
+  const auto isOutside = [&](HalfedgeId h) { return h.valid() && !contains(mesh.face(h)); };
+  for (const auto& cell : cells) {
+    for (std::size_t i = 0; i < cell.size(); ++i) {
+      const int from = cell[i];
+      const int to = cell[(i + 1) % cell.size()];
+      // Edges to new vertices and along the loop are as they should be; of the others each is met from both sides.
+      if (from >= to || to >= count || to - from == 1 || to - from == count - 1) continue;
+      const VertexId a = mesh.origin(loop[static_cast<std::size_t>(from)]);
+      const VertexId b = mesh.origin(loop[static_cast<std::size_t>(to)]);
+      if (isOutside(mesh.find(a, b)) || isOutside(mesh.find(b, a))) return true;
+    }
+  }
+  return false;
 }
 
 const std::vector<VertexId>& Cavity::vertices(const EditMesh& mesh) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -49,14 +50,22 @@ class Cavity {
   [[nodiscard]] const std::vector<FaceId>& faces() const { return faces_; }
   /// The same for the same faces in any order, and for others in all likelihood another.
   [[nodiscard]] std::uint64_t signature() const { return signature_; }
-  /// The boundary as one loop without repeated vertices, or nothing.
+  /// The boundary as one loop without repeated vertices, or nothing; nothing either where the faces wind around a
+  /// handle of the surface that what is filled in would close.
   [[nodiscard]] std::optional<std::vector<HalfedgeId>> boundaryLoop(const EditMesh& mesh);
+  /// Whether cells that fill the loop, given as for EditMesh::fill(), join vertices that an edge outside joins already:
+  /// what lies between the two edges, a hole even, would be lost where the mesh is told by its vertices alone.
+  [[nodiscard]] bool doublesEdge(const EditMesh& mesh, const std::vector<HalfedgeId>& loop,
+                                 const std::vector<std::array<int, 4>>& cells) const;
   /// The vertices of the faces, each once, in the order in which they are met.
   [[nodiscard]] const std::vector<VertexId>& vertices(const EditMesh& mesh);
   /// Elements of the cavity around a vertex.
   [[nodiscard]] int countAround(const EditMesh& mesh, VertexId v) const;
 
  private:
+  /// Whether the Euler characteristic of the faces, which have so many edges on their boundary, is that of a disc.
+  [[nodiscard]] bool isDisc(const EditMesh& mesh, std::size_t borders);
+
   std::vector<FaceId> faces_;
   std::uint64_t signature_ = 0;
   IdSet<FaceId> inside_;

@@ -183,6 +183,7 @@ bool TopologicalCleanup::refill() {
   constexpr std::size_t kMaxTries = 4;
   for (std::size_t i = 0; i < std::min(better.size(), kMaxTries); ++i) {
     const LoopFilling& way = ways[better[i].second];
+    if (cavity_.doublesEdge(mesh_, *loop, way.cells)) continue;
     const std::size_t mark = mesh_.mark();
     const EditMesh::Vertex middle = projectVertex(target_, mesh_.vertex(vertices[0]), centre);
     mesh_.fill(*loop, cavity_.faces(), way.cells,

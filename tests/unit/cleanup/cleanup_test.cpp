@@ -3,11 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "cleanup/grid_mesh.hpp"
 #include "field/patches.hpp"
 #include "qmcf/base/random.hpp"
 #include "qmcf/cleanup/subdivide.hpp"
+#include "qmcf/quality/quality.hpp"
 #include "qmcf/spatial/surface_tree.hpp"
 
 namespace qmcf {
@@ -18,6 +20,46 @@ CleanupResult clean(const FaceMesh& mesh, const Patch& patch, const CleanupOptio
   auto result = cleanUp(mesh, patch, surfaceTree(patch.surface), options, silent);
   EXPECT_TRUE(result.ok());
   return std::move(result).value();
+}
+
+/// The vertices of a patch, without elements.
+FaceMesh verticesOf(const Patch& patch) {
+  FaceMesh mesh;
+  for (const VertexId v : patch.surface.vertices()) {
+    const HalfedgeId h = patch.surface.outgoing(v);
+    SurfacePoint location{Surface::triangle(h), {0, 0, 0}};
+    location.barycentric[static_cast<std::size_t>(h.value % 3)] = 1.0;
+    mesh.positions.push_back(patch.surface.position(v));
+    mesh.normals.push_back(patch.normal[v]);
+    mesh.locations.push_back(location);
+    mesh.patchVertex.push_back(patch.surface.isBoundary(v) ? v.value : kNone);
+  }
+  return mesh;
+}
+
+/// The triangles of a patch, most of them in pairs that are drawn by lot.
+FaceMesh randomlyPaired(const Patch& patch, std::uint64_t seed) {
+  const Surface& surface = patch.surface;
+  FaceMesh mesh = verticesOf(patch);
+  Random random(seed);
+  std::vector<char> used(surface.triangleCount(), 0);
+  for (const TriangleId t : surface.triangles()) {
+    if (used[t.index()] != 0) continue;
+    used[t.index()] = 1;
+    const auto corners = surface.corners(t);
+    Element element{corners[0].value, corners[1].value, corners[2].value, kNone};
+    const int start = static_cast<int>(random.uniform(0.0, 3.0));
+    for (int k = 0; k < 3 && element[3] == kNone; ++k) {
+      const HalfedgeId h(3 * t.value + (k + start) % 3);
+      const HalfedgeId w = surface.twin(h);
+      if (!w.valid() || used[Surface::triangle(w).index()] != 0 || random.uniform(0.0, 1.0) < 0.3) continue;
+      used[Surface::triangle(w).index()] = 1;
+      element = {surface.origin(surface.prev(h)).value, surface.origin(h).value, surface.origin(surface.prev(w)).value,
+                 surface.origin(w).value};
+    }
+    mesh.elements.push_back(element);
+  }
+  return mesh;
 }
 
 TEST(CleanUp, LeavesAPerfectGridAlone) {
@@ -147,6 +189,20 @@ TEST(CleanUp, WithoutTopologyKeepsTheConnectivity) {
   CleanupOptions options;
   options.topology = false;
   EXPECT_EQ(clean(mesh, patch, options).mesh.elements, mesh.elements);
+}
+
+TEST(CleanUp, KeepsThinHandles) {
+  // On a ring of a few elements around, a region of three or four of them can wind around it; filled like a disc, it
+  // would close the hole.
+  for (const auto& [around, along] : {std::pair{3, 3}, {3, 4}}) {
+    const Patch patch = testing::makeTorus(around, along);
+    for (std::uint64_t seed = 0; seed < 60; ++seed) {
+      const CleanupResult result = clean(randomlyPaired(patch, seed), patch);
+      const IndexLedger ledger = indexLedger(result.mesh.positions, result.mesh.elements);
+      EXPECT_TRUE(ledger.closes()) << around << " " << along << " " << seed;
+      EXPECT_EQ(ledger.sum(), 0) << around << " " << along << " " << seed;
+    }
+  }
 }
 
 }  // namespace
