@@ -46,6 +46,10 @@ void turnRound(FaceMesh& mesh) {
   }
 }
 
+CoveredFaces noneCovered(const Brep& brep) {
+  return {std::vector<std::int32_t>(brep.faces.size(), kNone), std::vector<std::uint8_t>(brep.faces.size(), 0)};
+}
+
 MeshedFace omittedFace(std::int32_t face, std::int32_t below) {
   MeshedFace omitted;
   omitted.report.face = face;
@@ -186,7 +190,9 @@ class MeshRun {
   Result<PreparedFaces> prepare(const MeshOptions& options) {
     auto prepared = prepareFaces(mesh_, brep_, options, progress_);
     if (!prepared) return prepared;
-    covered_ = coveredFaces(mesh_, brep_, kTellApart * prepared.value().size.base);
+    // Elements that are cut up have a vertex of their own each, so that those of two layers always are told apart.
+    covered_ =
+        options.allQuad ? noneCovered(brep_) : coveredFaces(mesh_, brep_, kTellApart * prepared.value().size.base);
     faces_.assign(brep_.faces.size(), MeshedFace{});
     if (const auto error = meshChanged(prepared.value())) return *error;
     return prepared;

@@ -181,8 +181,8 @@ TEST(MeshSurface, CoversARingThatTheSizeAskedForMisses) {
   EXPECT_GT(result.value().quality.area, 0.8 * area);
 }
 
-TEST(MeshSurface, MeshesOneOfTwoLayersThatElementsCanNotTellApart) {
-  // A plate of three by three cells with a second layer over the middle one, hardly above it.
+/// A plate of three by three cells with a second layer over the middle one, hardly above it.
+TriangleMesh layeredPlate() {
   TriangleMesh plate = shapes::square(3);
   const auto vertexAt = [&plate](double x, double y) {
     for (std::size_t v = 0; v < plate.positions.size(); ++v) {
@@ -195,12 +195,25 @@ TEST(MeshSurface, MeshesOneOfTwoLayersThatElementsCanNotTellApart) {
   const std::array<std::int32_t, 4> cell{vertexAt(1. / 3, 1. / 3), vertexAt(2. / 3, 1. / 3), vertexAt(2. / 3, 2. / 3),
                                          vertexAt(1. / 3, 2. / 3)};
   for (std::size_t i = 0; i < 4; ++i) plate.triangles.push_back({cell[i], cell[(i + 1) % 4], top});
-  const MeshResult result = mesh(plate, 100);
+  return plate;
+}
+
+TEST(MeshSurface, MeshesOneOfTwoLayersThatElementsCanNotTellApart) {
+  const MeshResult result = mesh(layeredPlate(), 100);
   expectGood(result);
   const auto omitted = std::count_if(result.faces.begin(), result.faces.end(),
                                      [](const FaceReport& face) { return face.method == "omitted"; });
   EXPECT_EQ(omitted, 1);
   for (const FaceReport& face : result.faces) EXPECT_EQ(face.method == "omitted", !face.reason.empty());
+}
+
+TEST(MeshSurface, MeshesBothOfTwoLayersWithQuadrilateralsOnly) {
+  for (const std::int64_t quads : {40, 100}) {
+    const MeshResult result = allQuad(layeredPlate(), quads);
+    expectGood(result);
+    EXPECT_EQ(result.quality.triangles, 0);
+    for (const FaceReport& face : result.faces) EXPECT_TRUE(face.reason.empty()) << face.reason;
+  }
 }
 
 TEST(MeshSurface, GivesTheSameBytesEachTime) {
