@@ -37,8 +37,8 @@ std::vector<Side> sidesOf(const FaceMesh& mesh) {
 class Subdivision {
  public:
   Subdivision(const FaceMesh& coarse, const Patch& patch, const TriangleBvh& target,
-              const IdMap<HalfedgeId, Vec3>& boundaryMiddle)
-      : coarse_(coarse), patch_(patch), target_{patch, target, 0.5}, boundaryMiddle_(boundaryMiddle) {
+              const IdMap<HalfedgeId, Vec3>& boundaryMiddle, NewVertices place)
+      : coarse_(coarse), patch_(patch), target_{patch, target, 0.5}, boundaryMiddle_(boundaryMiddle), place_(place) {
     result_.mesh = coarse;
     result_.mesh.elements.clear();
     result_.boundaryEdge.resize(coarse.positions.size());
@@ -94,7 +94,7 @@ class Subdivision {
     return vertex;
   }
 
-  /// The point of the face below the mean of some vertices.
+  /// The mean of some vertices, or the point of the face below it.
   [[nodiscard]] EditMesh::Vertex meanOf(const std::vector<std::int32_t>& vertices) const {
     EditMesh::Vertex start = vertexOf(vertices.front());
     Vec3 position;
@@ -104,7 +104,9 @@ class Subdivision {
       normal += vertexOf(v).normal;
     }
     if (norm(normal) > 0.0) start.normal = normalized(normal);
-    return projectVertex(target_, start, position);
+    EditMesh::Vertex vertex = projectVertex(target_, start, position);
+    if (place_ == NewVertices::between) vertex.position = position;
+    return vertex;
   }
 
   std::int32_t addMiddle(const Side& side) {
@@ -133,14 +135,15 @@ class Subdivision {
   const Patch& patch_;
   RelaxationTarget target_;
   const IdMap<HalfedgeId, Vec3>& boundaryMiddle_;
+  NewVertices place_;
   SubdividedFace result_;
 };
 
 }  // namespace
 
 SubdividedFace subdivide(const FaceMesh& mesh, const Patch& patch, const TriangleBvh& target,
-                         const IdMap<HalfedgeId, Vec3>& boundaryMiddle) {
-  return Subdivision(mesh, patch, target, boundaryMiddle).run();
+                         const IdMap<HalfedgeId, Vec3>& boundaryMiddle, NewVertices place) {
+  return Subdivision(mesh, patch, target, boundaryMiddle, place).run();
 }
 
 }  // namespace qmcf

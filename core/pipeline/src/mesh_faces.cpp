@@ -209,7 +209,9 @@ Result<SharedFace> subdivideFace(const TriangleMesh& mesh, const Brep& brep, con
   for (const HalfedgeId h : IdRange<HalfedgeId>(patch.surface.halfedgeCount())) {
     if (patch.surface.isBoundary(h)) middle[h] = halved.positions[static_cast<std::size_t>(nodeHalving(h))];
   }
-  const SubdividedFace cut = subdivide(face.mesh, patch, tree, middle);
+  const bool isGiven = prepared.given[f] != Given::nothing;
+  const SubdividedFace cut =
+      subdivide(face.mesh, patch, tree, middle, isGiven ? NewVertices::between : NewVertices::onFace);
   CleanupOptions options;
   options.topology = false;
   options.quadsOnly = true;
@@ -218,7 +220,7 @@ Result<SharedFace> subdivideFace(const TriangleMesh& mesh, const Brep& brep, con
   std::optional<TraceRecorder> recorder;
   if (scale) recorder.emplace(result.trace, *scale);
   TraceRecorder* const trace = recorder ? &*recorder : nullptr;
-  if (prepared.given[f] != Given::nothing) {
+  if (isGiven) {
     result.mesh = cut.mesh;
     if (trace != nullptr) {
       EditMesh work(result.mesh);

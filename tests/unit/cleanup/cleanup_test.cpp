@@ -205,5 +205,29 @@ TEST(CleanUp, KeepsThinHandles) {
   }
 }
 
+TEST(Subdivide, PutsNewVerticesExactlyBetweenWhereAsked) {
+  const Patch patch = testing::makeCylinder(8, 2, 2.0);
+  FaceMesh mesh = verticesOf(patch);
+  IdMap<HalfedgeId, Vec3> middle(patch.surface.halfedgeCount());
+  for (const HalfedgeId h : IdRange<HalfedgeId>(patch.surface.halfedgeCount())) {
+    middle[h] =
+        (patch.surface.position(patch.surface.origin(h)) + patch.surface.position(patch.surface.target(h))) * 0.5;
+  }
+  for (const TriangleId t : patch.surface.triangles()) {
+    const auto corners = patch.surface.corners(t);
+    mesh.elements.push_back({corners[0].value, corners[1].value, corners[2].value, kNone});
+  }
+  // Onto a sphere around it, where what is not asked to stay between would go.
+  const Patch sphere = testing::makeSphere(4);
+  const auto cut = subdivide(mesh, patch, surfaceTree(sphere.surface), middle, NewVertices::between);
+  for (const Element& element : cut.mesh.elements) {
+    const auto p = [&](std::size_t c) { return cut.mesh.positions[static_cast<std::size_t>(element[c])]; };
+    const Vec3 normal = cross(p(1) - p(0), p(3) - p(0));
+    for (std::size_t c = 0; c < 4; ++c) {
+      EXPECT_GT(dot(normalized(cross(p((c + 1) % 4) - p(c), p((c + 3) % 4) - p(c))), normalized(normal)), 1.0 - 1e-9);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace qmcf

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "qmcf/mesh/face_mesh.hpp"
@@ -14,9 +15,15 @@ struct SubdividedFace {
   std::vector<HalfedgeId> boundaryEdge;  ///< Per vertex: the patch's boundary edge that it halves; invalid elsewhere.
 };
 
-/// Cuts each quadrilateral in four and each triangle in three quadrilaterals. New vertices inside lie on the face;
-/// boundaryMiddle: where those on the boundary lie, per half-edge of the patch (only boundary half-edges are read).
+/// Where subdivide() puts the new vertices inside.
+enum class NewVertices : std::uint8_t {
+  onFace,  ///< On the face below the middles of edges and elements.
+  between  ///< Exactly in these middles: what a well shaped element is cut into is well shaped, whatever the face.
+};
+
+/// Cuts each quadrilateral in four and each triangle in three quadrilaterals. boundaryMiddle: where the new vertices on
+/// the boundary lie, per half-edge of the patch (only boundary half-edges are read).
 SubdividedFace subdivide(const FaceMesh& mesh, const Patch& patch, const TriangleBvh& target,
-                         const IdMap<HalfedgeId, Vec3>& boundaryMiddle);
+                         const IdMap<HalfedgeId, Vec3>& boundaryMiddle, NewVertices place = NewVertices::onFace);
 
 }  // namespace qmcf
