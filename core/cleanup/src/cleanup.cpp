@@ -56,7 +56,7 @@ Result<CleanupResult> cleanUp(const FaceMesh& mesh, const Patch& patch, const Tr
   const auto note = [trace](TraceKind kind) {
     if (trace != nullptr) trace->next(kind);
   };
-  const RelaxationTarget where{patch, target, options.sizeScale};
+  const RelaxationTarget where{patch, target, options.sizeScale, false, options.part};
   TopologicalCleanup topology(work, patch, where, options, trace);
   constexpr double kEnough = 0.6;
   constexpr int kSweepsPerRound = 3;
@@ -91,11 +91,15 @@ Result<CleanupResult> cleanUp(const FaceMesh& mesh, const Patch& patch, const Tr
     work.commit();
   }
   note(TraceKind::untangle);
-  const std::int64_t turnedOver = untangle(work, where);
+  const std::int64_t turnedOver = untangle(work, where, options.quadsOnly);
   const std::int64_t cuts = options.quadsOnly ? 0 : cutInverted(work);
-  if (cuts > 0) untangle(work, where);
+  if (cuts > 0) untangle(work, where, options.quadsOnly);
   work.commit();
-  CleanupResult result{extract(work, mesh.patchVertex), topology.statistics(), 1.0, {}};
+  CleanupResult result{extract(work, mesh.patchVertex), topology.statistics(), 1.0, {}, {}};
+  for (std::size_t v = 0; v < work.vertexCapacity(); ++v) {
+    const bool isNew = v >= mesh.positions.size();
+    if (work.alive(VertexId(v))) result.before.push_back(isNew ? kNone : static_cast<std::int32_t>(v));
+  }
   result.statistics.turnedOver = turnedOver;
   result.statistics.cuts = cuts;
   std::int32_t element = 0;

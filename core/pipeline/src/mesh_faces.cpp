@@ -199,7 +199,7 @@ SharedFace shareFace(const MeshedFace& face, const PreparedFaces& prepared) {
 }
 
 Result<SharedFace> subdivideFace(const TriangleMesh& mesh, const Brep& brep, const PreparedFaces& prepared,
-                                 const MeshedFace& face, const SharedNodes& halved,
+                                 const TriangleBvh& part, const MeshedFace& face, const SharedNodes& halved,
                                  const std::optional<TraceScale>& scale, Progress& progress) {
   const auto f = static_cast<std::size_t>(face.report.face);
   const Patch& patch = prepared.patches[f];
@@ -216,12 +216,19 @@ Result<SharedFace> subdivideFace(const TriangleMesh& mesh, const Brep& brep, con
   options.topology = false;
   options.quadsOnly = true;
   options.sizeScale = 0.5;
+  options.part = &part;
   SharedFace result = shareFace(face, prepared);
+  std::vector<std::int32_t> node = std::move(result.node);
+  node.resize(cut.mesh.positions.size(), kNone);
+  for (std::size_t v = 0; v < cut.boundaryEdge.size(); ++v) {
+    if (cut.boundaryEdge[v].valid()) node[v] = nodeHalving(cut.boundaryEdge[v]);
+  }
   std::optional<TraceRecorder> recorder;
   if (scale) recorder.emplace(result.trace, *scale);
   TraceRecorder* const trace = recorder ? &*recorder : nullptr;
   if (isGiven) {
     result.mesh = cut.mesh;
+    result.node = std::move(node);
     if (trace != nullptr) {
       EditMesh work(result.mesh);
       trace->begin(TraceKind::subdivision, work);
@@ -230,12 +237,12 @@ Result<SharedFace> subdivideFace(const TriangleMesh& mesh, const Brep& brep, con
     auto relaxed = cleanUp(cut.mesh, patch, tree, options, progress, trace, TraceKind::subdivision);
     if (!relaxed) return relaxed.error();
     result.mesh = std::move(relaxed.value().mesh);
+    result.node.clear();
+    for (const std::int32_t v : relaxed.value().before) {
+      result.node.push_back(v == kNone ? kNone : node[static_cast<std::size_t>(v)]);
+    }
   }
   assert(ledgerCloses(result.mesh, mesh, brep, face.report.face));
-  result.node.resize(result.mesh.positions.size(), kNone);
-  for (std::size_t v = 0; v < cut.boundaryEdge.size(); ++v) {
-    if (cut.boundaryEdge[v].valid()) result.node[v] = nodeHalving(cut.boundaryEdge[v]);
-  }
   count(result.report, result.mesh);
   return result;
 }

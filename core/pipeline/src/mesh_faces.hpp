@@ -6,6 +6,7 @@
 #include "qmcf/mesh/face_mesh.hpp"
 #include "qmcf/mesh/trace.hpp"
 #include "qmcf/pipeline/mesh_surface.hpp"
+#include "qmcf/spatial/triangle_bvh.hpp"
 #include "shared_nodes.hpp"
 
 namespace qmcf {
@@ -37,10 +38,10 @@ struct SharedFace {
 SharedFace shareFace(const MeshedFace& face, const PreparedFaces& prepared);
 
 /// The same with every element cut at the middles of its edges, so that only quadrilaterals are left, and relaxed.
-/// halved: the nodes of the boundary with those middles. The history goes on in `scale`, if given.
-/// Errors: cancelled.
+/// part: the tree over all its triangles; halved: the nodes of the boundary with those middles. The history goes on in
+/// `scale`, if given. Errors: cancelled.
 Result<SharedFace> subdivideFace(const TriangleMesh& mesh, const Brep& brep, const PreparedFaces& prepared,
-                                 const MeshedFace& face, const SharedNodes& halved,
+                                 const TriangleBvh& part, const MeshedFace& face, const SharedNodes& halved,
                                  const std::optional<TraceScale>& scale, Progress& progress);
 
 }  // namespace qmcf

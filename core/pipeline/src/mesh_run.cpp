@@ -275,11 +275,12 @@ class MeshRun {
 
   std::optional<Error> subdivideAll(const PreparedFaces& prepared, const SharedNodes& shared,
                                     std::vector<SharedFace>& faces) {
+    const TriangleBvh part(mesh_.positions, mesh_.triangles);
     std::vector<std::int32_t> all(faces.size());
     std::iota(all.begin(), all.end(), 0);
     return forEachFace(prepared, all, [&](std::int32_t face, Progress& progress) -> std::optional<Error> {
       const auto f = static_cast<std::size_t>(face);
-      auto cut = subdivideFace(mesh_, brep_, prepared, faces_[f], shared, scale_, progress);
+      auto cut = subdivideFace(mesh_, brep_, prepared, part, faces_[f], shared, scale_, progress);
       if (!cut) return cut.error();
       faces[f] = std::move(cut).value();
       return std::nullopt;

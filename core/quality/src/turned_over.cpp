@@ -40,12 +40,12 @@ double turnedOverBy(const TriangleBvh& surface, const std::array<Vec3, 4>& corne
     const double reach = std::sqrt(surface.closest(point, below.triangle).squaredDistance) + kPatchReach * side;
     if (surface.isAnyFacing(normal, point, reach)) continue;
     const Vec3 unit = normalized(normal);
-    const ClosestPoint agreeing = surface.closest(point, unit, 0.0);
-    const double beyond = dot(unit, surface.normal(agreeing.triangle)) >= 0.0
-                              ? (std::sqrt(agreeing.squaredDistance) - reach) / std::max(side, kSmallest)
-                              : 1.0;
-    const Vec3& opposing = surface.normal(surface.closest(centre, -unit, 0.0).triangle);
-    most = std::max(most, std::clamp(std::min(beyond, -dot(unit, opposing)), kLeast, 1.0));
+    const ClosestPoint agreeing = surface.closestFacing(normal, point, reach + side);
+    const double beyond =
+        agreeing.triangle >= 0 ? (std::sqrt(agreeing.squaredDistance) - reach) / std::max(side, kSmallest) : 1.0;
+    const ClosestPoint opposing = surface.closestFacing(-normal, centre, tied);
+    const Vec3& opposed = opposing.triangle >= 0 ? surface.normal(opposing.triangle) : under;
+    most = std::max(most, std::clamp(std::min(beyond, -dot(unit, opposed)), kLeast, 1.0));
   }
   return most;
 }

@@ -199,14 +199,15 @@ void TriangleBvh::fitBoxes() {
   onSurface_ = kRoundOff * kRoundOff * std::max(squaredNorm(nodes_[0].low), squaredNorm(nodes_[0].high));
 }
 
+/// most: squared distance beyond which nothing is looked for.
 template <class Accept>
-ClosestPoint TriangleBvh::search(const Vec3& query, std::int32_t hint, Accept accept) const {
+ClosestPoint TriangleBvh::search(const Vec3& query, std::int32_t hint, double most, Accept accept) const {
   struct Entry {
     std::int32_t node;
     double squaredDistance;
   };
   ClosestPoint best;
-  best.squaredDistance = kInfinity;
+  best.squaredDistance = most;
   if (hint >= 0) {
     const auto index = static_cast<std::size_t>(place_[static_cast<std::size_t>(hint)]);
     if (accept(index)) {
@@ -250,13 +251,18 @@ ClosestPoint TriangleBvh::search(const Vec3& query, std::int32_t hint, Accept ac
 }
 
 ClosestPoint TriangleBvh::closest(const Vec3& query, std::int32_t hint) const {
-  return search(query, hint, [](std::size_t) { return true; });
+  return search(query, hint, kInfinity, [](std::size_t) { return true; });
 }
 
 ClosestPoint TriangleBvh::closest(const Vec3& query, const Vec3& normal, double minCosine, std::int32_t hint) const {
   const ClosestPoint best =
-      search(query, hint, [&](std::size_t index) { return dot(normals_[index], normal) >= minCosine; });
+      search(query, hint, kInfinity, [&](std::size_t index) { return dot(normals_[index], normal) >= minCosine; });
   return best.triangle >= 0 ? best : closest(query);
+}
+
+ClosestPoint TriangleBvh::closestFacing(const Vec3& normal, const Vec3& query, double reach) const {
+  if (empty()) return {};
+  return search(query, -1, reach * reach, [&](std::size_t index) { return dot(normals_[index], normal) >= 0.0; });
 }
 
 bool TriangleBvh::isAnyFacing(const Vec3& normal, const Vec3& query, double reach) const {

@@ -191,6 +191,40 @@ TEST(CleanUp, WithoutTopologyKeepsTheConnectivity) {
   EXPECT_EQ(clean(mesh, patch, options).mesh.elements, mesh.elements);
 }
 
+TEST(CleanUp, MendsQuadrilateralsWithoutTriangles) {
+  const Patch patch = testing::makeSquare(6);
+  FaceMesh mesh = testing::gridMesh(patch, 6);
+  // Two quads with a vertex between them that has no others: one of the two is flat or reflex there wherever it lies.
+  const Element quad = mesh.elements[14];
+  const auto at = [&](std::size_t i) { return mesh.positions[static_cast<std::size_t>(quad[i])]; };
+  const auto middle = static_cast<std::int32_t>(mesh.positions.size());
+  mesh.positions.push_back((at(0) + at(1) + at(2) + at(3)) * 0.25);
+  mesh.normals.push_back({0, 0, 1});
+  mesh.locations.push_back(mesh.locations[static_cast<std::size_t>(quad[0])]);
+  mesh.patchVertex.push_back(kNone);
+  mesh.elements[14] = {quad[0], quad[1], quad[2], middle};
+  mesh.elements.push_back({quad[0], middle, quad[2], quad[3]});
+  CleanupOptions options;
+  options.topology = false;
+  options.quadsOnly = true;
+  const CleanupResult result = clean(mesh, patch, options);
+  EXPECT_TRUE(result.degenerate.empty());
+  EXPECT_GT(result.worstShape, 0.2);
+  for (const Element& element : result.mesh.elements) EXPECT_EQ(cornerCount(element), 4U);
+  // What stays on the boundary is known by the vertex that it was.
+  ASSERT_EQ(result.before.size(), result.mesh.positions.size());
+  std::size_t boundary = 0;
+  for (std::size_t v = 0; v < result.before.size(); ++v) {
+    if (result.mesh.patchVertex[v] == kNone) continue;
+    ++boundary;
+    ASSERT_NE(result.before[v], kNone);
+    const auto was = static_cast<std::size_t>(result.before[v]);
+    EXPECT_EQ(mesh.patchVertex[was], result.mesh.patchVertex[v]);
+    EXPECT_EQ(mesh.positions[was], result.mesh.positions[v]);
+  }
+  EXPECT_EQ(boundary, 24U);
+}
+
 TEST(CleanUp, KeepsThinHandles) {
   // On a ring of a few elements around, a region of three or four of them can wind around it; filled like a disc, it
   // would close the hole.

@@ -134,6 +134,11 @@ TEST(TriangleBvh, FindsWhetherAnyTriangleFacesAWay) {
             (closest.squaredDistance <= reach * reach && dot(bvh.normal(static_cast<std::int32_t>(t)), normal) > 0.0);
     }
     EXPECT_EQ(bvh.isAnyFacing(normal, query, reach), any);
+    const ClosestPoint nearest = bvh.closestFacing(normal, query, reach);
+    EXPECT_EQ(nearest.triangle >= 0, any);
+    if (any) {
+      EXPECT_EQ(nearest.triangle, bvh.closest(query, normal, 0.0).triangle);
+    }
     yes += any ? 1 : 0;
   }
   EXPECT_GT(yes, 50);

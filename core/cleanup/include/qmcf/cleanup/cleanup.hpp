@@ -20,6 +20,9 @@ struct CleanupOptions {
   std::int32_t rounds = 6;   ///< Rounds of topological operators and relaxation, 0 to 50.
   std::int32_t sweeps = 25;  ///< Relaxation sweeps over all vertices at the end, 0 to 200.
   double leastShape = 0.2;   ///< No operator may leave an element with a smaller scaled Jacobian, in (0, 1).
+  /// The tree over all triangles of the part: elements that the check against it would find turned over are mended.
+  /// nullptr: it is left to the check to find them.
+  const TriangleBvh* part = nullptr;
 };
 
 /// What was done.
@@ -38,6 +41,7 @@ struct CleanupResult {
   CleanupStatistics statistics;
   double worstShape = 1.0;               ///< Smallest quadShape() or triangleShape().
   std::vector<std::int32_t> degenerate;  ///< Elements of the mesh that no solver takes; none in a valid mesh.
+  std::vector<std::int32_t> before;      ///< Per vertex: the one of the mesh given that it was, or kNone.
 };
 
 /// Makes a quad-dominant mesh of one face more regular and its elements squarer. Boundary vertices keep their places,

@@ -40,6 +40,9 @@ class TriangleBvh {
   /// As above among triangles whose unit normal n has dot(n, normal) >= minCosine; without any such triangle, as above.
   [[nodiscard]] ClosestPoint closest(const Vec3& query, const Vec3& normal, double minCosine,
                                      std::int32_t hint = -1) const;
+  /// The closest point among triangles no farther than `reach` whose unit normal n has dot(n, normal) >= 0; its
+  /// triangle is -1 if there is none.
+  [[nodiscard]] ClosestPoint closestFacing(const Vec3& normal, const Vec3& query, double reach) const;
   /// Whether a triangle no farther than `reach` has a unit normal n with dot(n, normal) > 0.
   [[nodiscard]] bool isAnyFacing(const Vec3& normal, const Vec3& query, double reach) const;
 
@@ -58,7 +61,7 @@ class TriangleBvh {
   void fitBoxes();
 
   template <class Accept>
-  ClosestPoint search(const Vec3& query, std::int32_t hint, Accept accept) const;
+  ClosestPoint search(const Vec3& query, std::int32_t hint, double most, Accept accept) const;
 
   std::vector<Node> nodes_;
   double onSurface_ = 0.0;                      ///< Squared distance that is no more than round-off.
