@@ -22,25 +22,10 @@ CleanupResult clean(const FaceMesh& mesh, const Patch& patch, const CleanupOptio
   return std::move(result).value();
 }
 
-/// The vertices of a patch, without elements.
-FaceMesh verticesOf(const Patch& patch) {
-  FaceMesh mesh;
-  for (const VertexId v : patch.surface.vertices()) {
-    const HalfedgeId h = patch.surface.outgoing(v);
-    SurfacePoint location{Surface::triangle(h), {0, 0, 0}};
-    location.barycentric[static_cast<std::size_t>(h.value % 3)] = 1.0;
-    mesh.positions.push_back(patch.surface.position(v));
-    mesh.normals.push_back(patch.normal[v]);
-    mesh.locations.push_back(location);
-    mesh.patchVertex.push_back(patch.surface.isBoundary(v) ? v.value : kNone);
-  }
-  return mesh;
-}
-
 /// The triangles of a patch, most of them in pairs that are drawn by lot.
 FaceMesh randomlyPaired(const Patch& patch, std::uint64_t seed) {
   const Surface& surface = patch.surface;
-  FaceMesh mesh = verticesOf(patch);
+  FaceMesh mesh = testing::verticesOf(patch);
   Random random(seed);
   std::vector<char> used(surface.triangleCount(), 0);
   for (const TriangleId t : surface.triangles()) {
@@ -59,6 +44,22 @@ FaceMesh randomlyPaired(const Patch& patch, std::uint64_t seed) {
     }
     mesh.elements.push_back(element);
   }
+  return mesh;
+}
+
+/// The grid of a square of 6 x 6 cells, with a vertex inside one of its quads that is joined to two opposite corners:
+/// two quads with a doublet between them.
+FaceMesh gridWithDoublet(const Patch& square) {
+  FaceMesh mesh = testing::gridMesh(square, 6);
+  const Element quad = mesh.elements[14];
+  const auto at = [&](std::size_t i) { return mesh.positions[static_cast<std::size_t>(quad[i])]; };
+  const auto middle = static_cast<std::int32_t>(mesh.positions.size());
+  mesh.positions.push_back((at(0) + at(1) + at(2) + at(3)) * 0.25);
+  mesh.normals.push_back({0, 0, 1});
+  mesh.locations.push_back(mesh.locations[static_cast<std::size_t>(quad[0])]);
+  mesh.patchVertex.push_back(kNone);
+  mesh.elements[14] = {quad[0], quad[1], quad[2], middle};
+  mesh.elements.push_back({quad[0], middle, quad[2], quad[3]});
   return mesh;
 }
 
@@ -86,17 +87,7 @@ TEST(CleanUp, RelaxesNoiseBackToTheGrid) {
 
 TEST(CleanUp, UndoesADoubletAndABadRotation) {
   const Patch patch = testing::makeSquare(6);
-  FaceMesh mesh = testing::gridMesh(patch, 6);
-  // A vertex inside one quad, joined to two opposite corners, makes two quads with a doublet between them.
-  const Element quad = mesh.elements[14];
-  const auto at = [&](std::size_t i) { return mesh.positions[static_cast<std::size_t>(quad[i])]; };
-  const auto middle = static_cast<std::int32_t>(mesh.positions.size());
-  mesh.positions.push_back((at(0) + at(1) + at(2) + at(3)) * 0.25);
-  mesh.normals.push_back({0, 0, 1});
-  mesh.locations.push_back(mesh.locations[static_cast<std::size_t>(quad[0])]);
-  mesh.patchVertex.push_back(kNone);
-  mesh.elements[14] = {quad[0], quad[1], quad[2], middle};
-  mesh.elements.push_back({quad[0], middle, quad[2], quad[3]});
+  const FaceMesh mesh = gridWithDoublet(patch);
   const CleanupResult result = clean(mesh, patch);
   EXPECT_EQ(result.mesh.elements.size(), 36U);
   EXPECT_EQ(result.mesh.positions.size(), 49U);
@@ -193,17 +184,8 @@ TEST(CleanUp, WithoutTopologyKeepsTheConnectivity) {
 
 TEST(CleanUp, MendsQuadrilateralsWithoutTriangles) {
   const Patch patch = testing::makeSquare(6);
-  FaceMesh mesh = testing::gridMesh(patch, 6);
-  // Two quads with a vertex between them that has no others: one of the two is flat or reflex there wherever it lies.
-  const Element quad = mesh.elements[14];
-  const auto at = [&](std::size_t i) { return mesh.positions[static_cast<std::size_t>(quad[i])]; };
-  const auto middle = static_cast<std::int32_t>(mesh.positions.size());
-  mesh.positions.push_back((at(0) + at(1) + at(2) + at(3)) * 0.25);
-  mesh.normals.push_back({0, 0, 1});
-  mesh.locations.push_back(mesh.locations[static_cast<std::size_t>(quad[0])]);
-  mesh.patchVertex.push_back(kNone);
-  mesh.elements[14] = {quad[0], quad[1], quad[2], middle};
-  mesh.elements.push_back({quad[0], middle, quad[2], quad[3]});
+  const FaceMesh mesh = gridWithDoublet(patch);
+  // One of the two quads at the doublet is flat or reflex there wherever it lies.
   CleanupOptions options;
   options.topology = false;
   options.quadsOnly = true;
@@ -241,7 +223,7 @@ TEST(CleanUp, KeepsThinHandles) {
 
 TEST(Subdivide, PutsNewVerticesExactlyBetweenWhereAsked) {
   const Patch patch = testing::makeCylinder(8, 2, 2.0);
-  FaceMesh mesh = verticesOf(patch);
+  FaceMesh mesh = testing::verticesOf(patch);
   IdMap<HalfedgeId, Vec3> middle(patch.surface.halfedgeCount());
   for (const HalfedgeId h : IdRange<HalfedgeId>(patch.surface.halfedgeCount())) {
     middle[h] =

@@ -8,11 +8,25 @@
 
 namespace qmcf::testing {
 
+/// The vertices of a patch, without elements.
+inline FaceMesh verticesOf(const Patch& patch) {
+  FaceMesh mesh;
+  for (const VertexId v : patch.surface.vertices()) {
+    const HalfedgeId h = patch.surface.outgoing(v);
+    SurfacePoint location{Surface::triangle(h), {0, 0, 0}};
+    location.barycentric[static_cast<std::size_t>(h.value % 3)] = 1.0;
+    mesh.positions.push_back(patch.surface.position(v));
+    mesh.normals.push_back(patch.normal[v]);
+    mesh.locations.push_back(location);
+    mesh.patchVertex.push_back(patch.surface.isBoundary(v) ? v.value : kNone);
+  }
+  return mesh;
+}
+
 /// The cells x cells grid of quads of a square patch.
 inline FaceMesh gridMesh(const Patch& patch, int cells) {
-  FaceMesh mesh;
+  FaceMesh mesh = verticesOf(patch);
   const Surface& surface = patch.surface;
-  std::vector<std::int32_t> index;
   const auto vertexAt = [&](int i, int j) {
     const Vec3 wanted{static_cast<double>(i) / cells, static_cast<double>(j) / cells, 0.0};
     for (const VertexId v : surface.vertices()) {
@@ -20,15 +34,6 @@ inline FaceMesh gridMesh(const Patch& patch, int cells) {
     }
     return kNone;
   };
-  for (const VertexId v : surface.vertices()) {
-    const HalfedgeId h = surface.outgoing(v);
-    SurfacePoint location{Surface::triangle(h), {0, 0, 0}};
-    location.barycentric[static_cast<std::size_t>(h.value % 3)] = 1.0;
-    mesh.positions.push_back(surface.position(v));
-    mesh.normals.push_back({0, 0, 1});
-    mesh.locations.push_back(location);
-    mesh.patchVertex.push_back(surface.isBoundary(v) ? v.value : kNone);
-  }
   for (int j = 0; j < cells; ++j) {
     for (int i = 0; i < cells; ++i) {
       mesh.elements.push_back({vertexAt(i, j), vertexAt(i + 1, j), vertexAt(i + 1, j + 1), vertexAt(i, j + 1)});

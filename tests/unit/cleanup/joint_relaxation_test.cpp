@@ -133,20 +133,9 @@ TEST(RelaxTogether, TurnsTheNodesOfAClosedEdgeWithTheVertexThatClosesIt) {
   };
   const Patch patch = testing::makeGrid(grid, 0.25);
   const TriangleBvh tree = surfaceTree(patch.surface);
-  FaceMesh mesh;
-  std::vector<std::int32_t> node;
-  std::vector<Vec3> nodes;
-  for (const VertexId v : patch.surface.vertices()) {
-    const HalfedgeId h = patch.surface.outgoing(v);
-    SurfacePoint location{Surface::triangle(h), {0, 0, 0}};
-    location.barycentric[static_cast<std::size_t>(h.value % 3)] = 1.0;
-    mesh.positions.push_back(patch.surface.position(v));
-    mesh.normals.push_back(patch.normal[v]);
-    mesh.locations.push_back(location);
-    mesh.patchVertex.push_back(patch.surface.isBoundary(v) ? v.value : kNone);
-    node.push_back(patch.surface.isBoundary(v) ? v.value : kNone);
-    nodes.push_back(patch.surface.position(v));
-  }
+  FaceMesh mesh = testing::verticesOf(patch);
+  const std::vector<std::int32_t> node = mesh.patchVertex;
+  std::vector<Vec3> nodes = mesh.positions;
   const auto vertexAt = [&](int i, int j) {
     const Vec3 wanted = grid.map(static_cast<double>(i % kAround) / kAround, static_cast<double>(j) / kLayers);
     for (std::size_t v = 0; v < mesh.positions.size(); ++v) {

@@ -64,7 +64,8 @@ struct SizeField {
 /// The sizes: `size`, or a length such that the elements of the whole field are about `quads`; smaller where a feature
 /// edge turns (at least divisionsPerTurn divisions in a full turn, also in a small closed edge), where two edges of a
 /// face run close to each other, and on short edges; not below a tenth of base, except by the divisions of a small
-/// closed edge and by limits; then graded. Complexity O(n log n). Errors: invalidOption, cancelled.
+/// closed edge and by limits; then graded, and levelled where a face is one element wide: the slope there may be more.
+/// Complexity O(n log n). Errors: invalidOption, cancelled.
 Result<SizeField> computeSizeField(const TriangleMesh& mesh, const Brep& brep, const SizingOptions& options,
                                    Progress& progress);
 
