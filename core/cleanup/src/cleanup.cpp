@@ -46,6 +46,17 @@ std::int64_t cutInverted(EditMesh& mesh) {
   return cuts;
 }
 
+/// Per vertex, the elements that make it regular. The mesh's numbers are its own: patchVertex tells the patch's.
+std::vector<std::int32_t> wantedElements(const FaceMesh& mesh, const EditMesh& work, const Patch& patch) {
+  constexpr std::int32_t kInsideEdge = 2;
+  std::vector<std::int32_t> wanted(mesh.positions.size(), TopologicalCleanup::kRegular);
+  for (std::size_t v = 0; v < wanted.size(); ++v) {
+    if (!work.isBoundary(VertexId(v))) continue;
+    wanted[v] = mesh.patchVertex[v] == kNone ? kInsideEdge : patch.cornerQuads[VertexId(mesh.patchVertex[v])];
+  }
+  return wanted;
+}
+
 }  // namespace
 
 Result<CleanupResult> cleanUp(const FaceMesh& mesh, const Patch& patch, const TriangleBvh& target,
@@ -57,7 +68,7 @@ Result<CleanupResult> cleanUp(const FaceMesh& mesh, const Patch& patch, const Tr
     if (trace != nullptr) trace->next(kind);
   };
   const RelaxationTarget where{patch, target, options.sizeScale, false, options.part};
-  TopologicalCleanup topology(work, patch, where, options, trace);
+  TopologicalCleanup topology(work, wantedElements(mesh, work, patch), where, options, trace);
   constexpr double kEnough = 0.6;
   constexpr int kSweepsPerRound = 3;
   constexpr std::int32_t kSmallRounds = 2;

@@ -43,14 +43,14 @@ double worstAround(const EditMesh& mesh, const std::vector<VertexId>& vertices) 
 
 }  // namespace
 
-TopologicalCleanup::TopologicalCleanup(EditMesh& mesh, const Patch& patch, const RelaxationTarget& target,
+TopologicalCleanup::TopologicalCleanup(EditMesh& mesh, std::vector<std::int32_t> wanted, const RelaxationTarget& target,
                                        const CleanupOptions& options, TraceRecorder* trace)
-    : mesh_(mesh), patch_(patch), target_(target), options_(options), trace_(trace) {}
+    : mesh_(mesh), wanted_(std::move(wanted)), target_(target), options_(options), trace_(trace) {}
 
 int TopologicalCleanup::excess(VertexId v) const {
   int elements = 0;
   mesh_.forEachOutgoing(v, [&](HalfedgeId) { ++elements; });
-  return elements - (mesh_.isBoundary(v) ? patch_.cornerQuads[v] : 4);
+  return elements - (v.index() < wanted_.size() ? wanted_[v.index()] : kRegular);
 }
 
 bool TopologicalCleanup::settle(const std::vector<VertexId>& vertices, double least, std::size_t mark) {

@@ -18,8 +18,11 @@ namespace qmcf {
 /// options.leastShape, or than the worst before if that was less.
 class TopologicalCleanup {
  public:
-  TopologicalCleanup(EditMesh& mesh, const Patch& patch, const RelaxationTarget& target, const CleanupOptions& options,
-                     TraceRecorder* trace);
+  static constexpr std::int32_t kRegular = 4;  ///< Elements around a regular vertex inside.
+
+  /// wanted: per vertex of the mesh as it is now, the elements that make it regular; kRegular for those to come.
+  TopologicalCleanup(EditMesh& mesh, std::vector<std::int32_t> wanted, const RelaxationTarget& target,
+                     const CleanupOptions& options, TraceRecorder* trace);
 
   /// One pass of the small operators over the mesh. Returns the number of changes.
   std::int64_t pass();
@@ -69,7 +72,7 @@ class TopologicalCleanup {
   bool settle(const std::vector<VertexId>& vertices, double least, std::size_t mark);
 
   EditMesh& mesh_;
-  const Patch& patch_;
+  std::vector<std::int32_t> wanted_;
   const RelaxationTarget& target_;
   const CleanupOptions& options_;
   CleanupStatistics statistics_;

@@ -139,6 +139,33 @@ TEST(CleanUp, TwoOppositeDipolesGiveWayToAGrid) {
   EXPECT_GT(result.worstShape, 0.95);
 }
 
+/// The same mesh with its vertices in the opposite order.
+FaceMesh renumbered(FaceMesh mesh) {
+  std::reverse(mesh.positions.begin(), mesh.positions.end());
+  std::reverse(mesh.normals.begin(), mesh.normals.end());
+  std::reverse(mesh.locations.begin(), mesh.locations.end());
+  std::reverse(mesh.patchVertex.begin(), mesh.patchVertex.end());
+  const auto last = static_cast<std::int32_t>(mesh.positions.size()) - 1;
+  for (Element& element : mesh.elements) {
+    for (std::size_t c = 0; c < cornerCount(element); ++c) element[c] = last - element[c];
+  }
+  return mesh;
+}
+
+TEST(CleanUp, KnowsTheWantedElementsOfABoundaryVertexWhateverItsNumber) {
+  const Patch patch = testing::makeSquare(8);
+  FaceMesh mesh = testing::gridMesh(patch, 8);
+  // An edge that ends on the boundary is turned: one node there has one element too few, the next one too many.
+  const Element a = mesh.elements[3];
+  const Element b = mesh.elements[4];
+  mesh.elements[3] = {a[0], a[1], b[1], b[2]};
+  mesh.elements[4] = {a[0], b[2], a[2], a[3]};
+  const FaceMesh reversed = renumbered(std::move(mesh));
+  const CleanupResult result = clean(reversed, patch);
+  EXPECT_EQ(result.mesh.elements.size(), 64U);
+  EXPECT_GT(result.worstShape, 0.95);
+}
+
 TEST(Subdivide, CutsQuadrilateralsInFourAndTrianglesInThree) {
   const Patch patch = testing::makeSquare(4);
   FaceMesh mesh = testing::gridMesh(patch, 4);
