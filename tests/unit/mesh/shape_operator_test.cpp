@@ -56,8 +56,8 @@ TEST(ShapeOperator, IsZeroWithoutArea) {
 
 TEST(AngleWeightedNormals, DoNotDependOnHowAFacetIsCut) {
   // A ridge of two facets at right angles, one of them in two triangles at the shared vertex 0, one in one.
-  const auto surface = Surface::build({{0, 0, 0}, {0, 1, 0}, {1, 0, 0}, {1, 1, 0}, {0, 0, -1}},
-                                      {{0, 2, 3}, {0, 3, 1}, {0, 1, 4}});
+  const auto surface =
+      Surface::build({{0, 0, 0}, {0, 1, 0}, {1, 0, 0}, {1, 1, 0}, {0, 0, -1}}, {{0, 2, 3}, {0, 3, 1}, {0, 1, 4}});
   ASSERT_TRUE(surface.ok());
   const Vec3 normal = angleWeightedNormals(surface.value())[VertexId(0)];
   EXPECT_NEAR(distance(normal, normalized(Vec3{-1.0, 0.0, 1.0})), 0.0, 1e-12);

@@ -9,8 +9,8 @@ namespace qmcf {
 
 /// How the normal of a smooth surface turns along its tangents, positive for a convex surface. In units of 1 / length.
 struct ShapeOperator {
-  std::complex<double> deviator;  ///< |deviator| e^(2 i a): a is the angle of the larger principal curvature's direction
-                                  ///< and |deviator| is half the difference of the two.
+  std::complex<double> deviator;  ///< |deviator| e^(2 i a): a is the angle of the larger principal curvature's
+                                  ///< direction and |deviator| is half the difference of the two.
   double mean = 0.0;              ///< Half the sum of the principal curvatures.
 };
 
