@@ -107,6 +107,8 @@ test('wrong usage is exit 2', () => {
     ['mesh', 'cube.obj', '-o', 'a.obj', '--size', '-1'],
     ['mesh', 'cube.obj', '-o', 'a.obj', '--size', 'nan'],
     ['mesh', 'cube.obj', '-o', 'a.obj', '--quads', '0'],
+    ['mesh', 'cube.obj', '-o', 'a.obj', '--quads', '100', '--sizing', 'cube.obj'],
+    ['mesh', 'cube.obj', '-o', 'a.obj', '--curvature', '0'],
     ['mesh', 'cube.obj', '-o', 'a.obj', '--feature-angle', '180'],
     ['mesh', 'cube.obj', '-o', 'a.obj', '--mode', 'fast'],
     ['mesh', 'cube.obj', '-o', 'a.dwg'],
@@ -364,6 +366,79 @@ test('mesh --sizing-out writes a size per vertex of the file, and per different 
   assert.equal(get('sizes.txt').trimEnd().split('\n').length, 4);
 
   assert.equal(qmcf('mesh', 'sized.obj', '-o', 'sized.quads.obj', '--sizing-out', 'missing/sizes.txt').status, 2);
+});
+
+test('mesh --sizing takes a size per vertex of the file, as --sizing-out writes them', () => {
+  // Elements grow along x from 0.1 to 0.4.
+  put('graded.obj', cube(4));
+  const points = get('graded.obj').match(/^v .*$/gm).map((line) => line.split(' ').slice(1).map(Number));
+  const wanted = points.map(([x]) => 0.25 + 0.15 * x);
+  put('graded.txt', `${wanted.join('\r\n')}\n\n`);
+  const args = ['mesh', 'graded.obj', '--quiet', '--report', 'graded.json', '-o'];
+  const run = qmcf(...args, 'graded.quads.obj', '--sizing', 'graded.txt', '--sizing-out', 'again.txt');
+  assert.equal(run.status, 0, run.stderr);
+  const again = get('again.txt').trimEnd().split('\n').map(Number);
+  assert.ok(again.every((h, v) => Math.abs(h - wanted[v]) < 1e-9));
+  const { quality, sizing, sizeConformity } = JSON.parse(get('graded.json'));
+  // The integral of 1 / h^2: 4 / 0.1^2 + 4 / 0.4^2 + 4 sides of 2 / 0.15 * (1 / 0.1 - 1 / 0.4).
+  assert.ok(Math.abs(quality.quads + quality.triangles - 825) < 120, String(quality.quads));
+  assert.ok(quality.valid && sizing.bySizes > 70 && sizing.byCurvature === 0);
+  assert.ok(sizeConformity.meanAbsLog2 < 0.3, String(sizeConformity.meanAbsLog2));
+
+  assert.equal(qmcf(...args, 'bounded.quads.obj', '--sizing', 'graded.txt', '--size', '0.2', '--sizing-out', 'bounded.txt').status, 0);
+  assert.ok(get('bounded.txt').trimEnd().split('\n').every((h, v) => Math.abs(h - Math.min(0.2, wanted[v])) < 1e-9));
+  assert.equal(qmcf('field', 'graded.obj', '-o', 'graded.vtu', '--sizing', 'graded.txt', '--quiet').status, 0);
+});
+
+test('mesh --sizing of an STL numbers its different points', () => {
+  const corners = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]];
+  const facet = (...ids) => `facet normal 0 0 1\nouter loop\n${ids.map((i) => `vertex ${corners[i].join(' ')}\n`).join('')}endloop\nendfacet\n`;
+  put('plate.stl', `solid s\n${facet(0, 1, 2)}${facet(0, 2, 3)}endsolid s\n`);
+  put('plate.txt', '0.05\n0.1\n0.1\n0.05\n');
+  const run = qmcf('mesh', 'plate.stl', '-o', 'plate.obj', '--sizing', 'plate.txt', '--sizing-out', 'plate.out.txt', '--quiet');
+  assert.equal(run.status, 0, run.stderr);
+  assert.deepEqual(get('plate.out.txt').trimEnd().split('\n').map(Number), [0.05, 0.1, 0.1, 0.05]);
+});
+
+test('a file of sizes that can not be used is exit 3 and named with its line', () => {
+  put('cube.obj', cube());
+  const cases = [
+    ['1\n1\nabc\n1\n1\n1\n1\n1\n', /Line 3: "abc" is not a number/],
+    ['1\n1 2\n', /Line 2: "1 2" is not a number/],
+    ['1\n\n1\n', /Line 2: there is no number/],
+    ['1\n1\n1\n0\n1\n1\n1\n1\n', /Line 4: "0" is not above 0/],
+    ['-2\n', /Line 1: "-2" is not above 0/],
+    ['1\ninf\n', /Line 2: "inf" is no finite number/],
+    ['1\n1\n1\n', /3 lines, but the model has 8 vertices/],
+    ['', /is empty/],
+  ];
+  for (const [content, pattern] of cases) {
+    put('wrong.txt', content);
+    const { status, stderr } = qmcf('mesh', 'cube.obj', '-o', 'refused.obj', '--sizing', 'wrong.txt');
+    assert.equal(status, 3, stderr);
+    assert.match(stderr, pattern);
+    assert.ok(stderr.startsWith('qmcf: wrong.txt: '), stderr);
+  }
+  const missing = qmcf('mesh', 'cube.obj', '-o', 'refused.obj', '--sizing', 'nowhere.txt');
+  assert.equal(missing.status, 3);
+  assert.match(missing.stderr, /nowhere\.txt: .*No such file/);
+  assert.equal(existsSync(join(folder, 'refused.obj')), false);
+});
+
+test('mesh --curvature keeps edges near curved faces', () => {
+  // A cylinder of radius 1, open, in needles.
+  const ring = Array.from({ length: 96 }, (_, i) => [Math.cos((i * Math.PI) / 48), Math.sin((i * Math.PI) / 48)]);
+  const next = (i) => (i + 1) % 96;
+  put('tube.obj', `${[0, 4].map((z) => ring.map((p) => `v ${p.join(' ')} ${z}\n`).join('')).join('')}${ring
+    .map((_, i) => `f ${i + 1} ${next(i) + 1} ${next(i) + 97} ${i + 97}\n`).join('')}`);
+  const run = qmcf('mesh', 'tube.obj', '-o', 'tube.quads.obj', '--size', '0.8', '--curvature', '0.01', '--report', 'tube.json', '--quiet');
+  assert.equal(run.status, 0, run.stderr);
+  const { sizing, quality } = JSON.parse(get('tube.json'));
+  assert.equal(sizing.byCurvature, 192);
+  assert.equal(sizing.floored, 0);
+  // Chords of 2 sqrt(0.02) are in 22 divisions around, 14 along.
+  assert.ok(Math.abs(quality.quads - 22 * 14) < 40, String(quality.quads));
+  assert.ok(quality.largestDistance < 0.02, String(quality.largestDistance));
 });
 
 test('mesh --quads makes the number of elements asked for within 6 %', () => {

@@ -171,6 +171,7 @@ Result<BackgroundResult> buildBackground(const TriangleMesh& mesh, const Brep& b
   targets.gradation = size.gradation;
   targets.relativeSize = options.relativeSize;
   targets.flatSize = options.flatSize;
+  targets.inner = FaceSizes(size, face);
   targets.nodeSize = std::move(boundary.nodeSize);
   targets.spacing = std::move(boundary.spacing);
   for (const SizeLimit& limit : size.limits) {

@@ -3,23 +3,20 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <utility>
+
+#include "qmcf/mesh/shape_operator.hpp"
 
 namespace qmcf {
 
 FaceReference::FaceReference(const Surface& surface) {
   triangles_.reserve(surface.triangleCount());
-  vertexNormals_.resize(surface.vertexCount());
   for (const TriangleId t : surface.triangles()) {
     const auto corners = surface.corners(t);
     triangles_.push_back({corners[0].value, corners[1].value, corners[2].value});
-    const Vec3 normal = normalized(surface.areaVector(t));
-    for (int c = 0; c < 3; ++c) {
-      const HalfedgeId h = Surface::halfedge(t, c);
-      vertexNormals_[surface.origin(h).index()] += normal * surface.angle(h);
-    }
   }
+  vertexNormals_ = std::move(angleWeightedNormals(surface).raw());
   findPlane(surface);
-  for (Vec3& normal : vertexNormals_) normal = normalized(normal);
   for (std::size_t t = 0; t < triangles_.size(); ++t) {
     const Vec3 normal = normalized(surface.areaVector(TriangleId(t)));
     for (const std::int32_t v : triangles_[t]) {

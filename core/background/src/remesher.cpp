@@ -86,6 +86,7 @@ std::vector<std::int32_t> Remesher::renumber() {
   apply(targets_.spacing);
   apply(awake_);
   apply(moved_);
+  place_.clear();
   return newVertex;
 }
 
@@ -111,6 +112,18 @@ void Remesher::applyLimits() {
   }
 }
 
+/// Lowers the sizes at vertices to those inside the face.
+void Remesher::applyInner() {
+  if (targets_.inner.empty()) return;
+  place_.resize(index(mesh_.vertexCount()), kNone);
+  for (std::int32_t v = 0; v < mesh_.vertexCount(); ++v) {
+    if (mesh_.isVertexRemoved(v)) continue;
+    const FaceSizes::Found found = targets_.inner.at(mesh_.positionOf(v), place_[index(v)]);
+    place_[index(v)] = found.triangle;
+    size_[index(v)] = std::min(size_[index(v)], found.size);
+  }
+}
+
 void Remesher::updateSizes() {
   const auto count = index(mesh_.vertexCount());
   size_.assign(count, targets_.base);
@@ -119,6 +132,7 @@ void Remesher::updateSizes() {
     if (mesh_.role[v] == VertexRole::node) size_[v] = std::min(size_[v], targets_.nodeSize[v]);
   }
   applyLimits();
+  applyInner();
   grade(mesh_, size_, targets_.base, targets_.gradation);
   for (std::size_t v = 0; v < count; ++v) length_[v] = size_[v] * targets_.flatSize;
   shortenWhereCurved();

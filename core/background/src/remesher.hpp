@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "face_reference.hpp"
+#include "face_sizes.hpp"
 #include "qmcf/base/progress.hpp"
 #include "qmcf/mesh/triangle_mesh.hpp"
 #include "qmcf/sizing/size_field.hpp"
@@ -20,6 +21,7 @@ struct RemeshTargets {
   double flatSize = 1.7;          ///< The same far from the nodes where the face is flat; at least relativeSize.
   std::vector<double> nodeSize;   ///< Per vertex of the mesh: size at nodes, 0 elsewhere.
   std::vector<SizeLimit> limits;  ///< Those inside this face.
+  FaceSizes inner;                ///< Largest sizes inside this face.
   std::vector<double> spacing;    ///< Per vertex of the mesh: distance of nodes to their neighbours, 0 elsewhere.
 };
 
@@ -61,6 +63,7 @@ class Remesher {
 
  private:
   void applyLimits();
+  void applyInner();
   void shortenWhereCurved();
   [[nodiscard]] double edgeLength(std::int32_t a, std::int32_t b) const;
   [[nodiscard]] double quality(std::int32_t a, std::int32_t b, std::int32_t c) const;
@@ -80,10 +83,11 @@ class Remesher {
   RemeshMesh& mesh_;
   const FaceReference& reference_;
   RemeshTargets targets_;
-  std::vector<double> size_;    ///< Per vertex: target size of the quad mesh.
-  std::vector<double> length_;  ///< Per vertex: target length of triangle edges.
-  std::vector<char> awake_;     ///< Per vertex: something near it has changed since it was smoothed.
-  std::vector<char> moved_;     ///< Per vertex: it has moved since it was projected.
+  std::vector<double> size_;         ///< Per vertex: target size of the quad mesh.
+  std::vector<double> length_;       ///< Per vertex: target length of triangle edges.
+  std::vector<std::int32_t> place_;  ///< Per vertex: triangle of targets_.inner that it was on last.
+  std::vector<char> awake_;          ///< Per vertex: something near it has changed since it was smoothed.
+  std::vector<char> moved_;          ///< Per vertex: it has moved since it was projected.
 };
 
 }  // namespace qmcf

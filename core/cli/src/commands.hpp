@@ -14,6 +14,7 @@ struct MeshCommand {
   std::string report;       ///< Empty: none.
   std::string trace;        ///< Empty: none.
   std::string constraints;  ///< File of strokes; empty: none.
+  std::string sizing;       ///< File with sizes at the input's vertices; empty: none.
   std::string sizingOut;    ///< File for the target sizes at the input's vertices; empty: none.
   MeshOptions options;
   bool quiet = false;
@@ -25,6 +26,7 @@ struct FieldCommand {
   std::string input;
   std::string output;
   std::string constraints;  ///< File of strokes; empty: none.
+  std::string sizing;       ///< File with sizes at the input's vertices; empty: none.
   MeshOptions options;
   bool quiet = false;
 };

@@ -9,6 +9,7 @@
 #include "qmcf/io/vtu.hpp"
 #include "qmcf/io/write.hpp"
 #include "report_text.hpp"
+#include "sizing_file.hpp"
 
 namespace qmcf::cli {
 namespace {
@@ -111,7 +112,13 @@ int run(const FieldCommand& command) {
   const Result<ReadModel> model = loadModel(command.input, progress);
   progress.clear();
   if (!model.ok()) return fail(model.error(), command.input);
-  const Result<FieldResult> result = computeField(model.value().mesh, command.options, progress);
+  MeshOptions options = command.options;
+  if (!command.sizing.empty()) {
+    Result<std::vector<double>> sizes = spreadSizing(options.sizes, model.value());
+    if (!sizes.ok()) return fail(sizes.error(), command.sizing);
+    options.sizes = std::move(sizes).value();
+  }
+  const Result<FieldResult> result = computeField(model.value().mesh, options, progress);
   progress.clear();
   if (!result.ok()) return fail(result.error(), command.input);
   if (const std::optional<Error> error = writeFile(command.output, writeVtu(fieldGrid(result.value()))))

@@ -7,6 +7,7 @@
 #include "console.hpp"
 #include "constraints_file.hpp"
 #include "exit_status.hpp"
+#include "sizing_file.hpp"
 
 namespace qmcf::cli {
 namespace {
@@ -28,14 +29,27 @@ void addPartOptions(CLI::App& app, MeshOptions& options) {
       "--no-repair", [&options] { options.repair = false; }, "Report the model's defects and leave them as they are");
 }
 
-void addFieldOptions(CLI::App& app, MeshOptions& options, std::string& constraints) {
+void addSizeOptions(CLI::App& app, MeshOptions& options, std::string& sizing) {
   auto* const size = app.add_option("--size", options.size, "Edge length of the elements, in units of the model");
-  app.add_option("--quads", options.quads, "Number of elements to aim at (3000 unless --size is given)")
-      ->excludes(size);
+  auto* const sizes = app.add_option("--sizing", sizing,
+                                     "Edge length at each vertex of the model, one number per line in the model's\n"
+                                     "order, as --sizing-out writes them; with --size, the smaller of both");
+  sizes->type_name("FILE");
+  app.add_option("--quads", options.quads, "Number of elements to aim at (3000 unless --size or --sizing is given)")
+      ->excludes(size)
+      ->excludes(sizes);
+  app.add_option("--curvature", options.curvature,
+                 "Chord error: how far edges of elements may be from curved faces, in units of the model\n"
+                 "(elements get no smaller by it than a tenth of the size)")
+      ->type_name("DISTANCE");
+  app.add_option("--gradation", options.gradation, "Largest slope of the element size, up to 1")->capture_default_str();
+}
+
+void addFieldOptions(CLI::App& app, MeshOptions& options, std::string& constraints, std::string& sizing) {
+  addSizeOptions(app, options, sizing);
   addPartOptions(app, options);
   app.add_option("--threads", options.threads,
                  "Faces worked on at a time, 1 to 256 (as many as the machine has threads)");
-  app.add_option("--gradation", options.gradation, "Largest slope of the element size, up to 1")->capture_default_str();
   addAlignFlag(app, "boundary", options.alignBoundary, "boundary edges");
   addAlignFlag(app, "sharp", options.alignSharp, "sharp edges");
   addAlignFlag(app, "non-manifold", options.alignNonManifold, "non-manifold edges");
@@ -48,7 +62,7 @@ void addMesh(CLI::App& app, MeshCommand& command) {
   app.add_option("-o,--output", command.output, "Mesh: .obj .ply .stl .vtu .msh .inp .bdf")
       ->type_name("OUT")
       ->required();
-  addFieldOptions(app, command.options, command.constraints);
+  addFieldOptions(app, command.options, command.constraints, command.sizing);
   const std::map<std::string, Mode> modes{{"qmcf", Mode::qmcf}, {"qmorph", Mode::qmorph}};
   app.add_option("--mode", command.options.mode, "Advancing front: qmcf (guided by the field) or qmorph (the original)")
       ->transform(CLI::CheckedTransformer(modes).description(""))
@@ -66,7 +80,7 @@ void addMesh(CLI::App& app, MeshCommand& command) {
 void addField(CLI::App& app, FieldCommand& command) {
   app.add_option("input", command.input, "Model: OBJ, STL or PLY")->type_name("IN")->required();
   app.add_option("-o,--output", command.output, "Field and singularities")->type_name("OUT.vtu")->required();
-  addFieldOptions(app, command.options, command.constraints);
+  addFieldOptions(app, command.options, command.constraints, command.sizing);
   app.add_flag("--quiet", command.quiet, "Print nothing but errors");
 }
 
@@ -87,13 +101,18 @@ void addInfo(CLI::App& app, InfoCommand& command) {
   app.add_flag("--json", command.json, "Print JSON");
 }
 
-/// Runs a command with the strokes of its file of constraints, if it has one.
+/// Runs a command with what the files say that its options name.
 template <class Command>
-int runConstrained(Command& command) {
+int runWithFiles(Command& command) {
   if (!command.constraints.empty()) {
     Result<std::vector<FieldStroke>> strokes = readConstraints(command.constraints);
     if (!strokes.ok()) return fail(strokes.error(), command.constraints);
     command.options.strokes = std::move(strokes).value();
+  }
+  if (!command.sizing.empty()) {
+    Result<std::vector<double>> sizes = readSizing(command.sizing);
+    if (!sizes.ok()) return fail(sizes.error(), command.sizing);
+    command.options.sizes = std::move(sizes).value();
   }
   return run(command);
 }
@@ -121,8 +140,8 @@ int runProgram(int argc, char** argv) {
     return app.exit(error) == 0 ? kDone : kWrongUsage;
   }
   catchInterrupts();
-  if (meshApp->parsed()) return runConstrained(mesh);
-  if (fieldApp->parsed()) return runConstrained(field);
+  if (meshApp->parsed()) return runWithFiles(mesh);
+  if (fieldApp->parsed()) return runWithFiles(field);
   if (checkApp->parsed()) return run(check);
   return run(info);
 }

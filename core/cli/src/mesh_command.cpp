@@ -1,6 +1,7 @@
 #include <chrono>
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "commands.hpp"
 #include "console.hpp"
@@ -59,6 +60,11 @@ int run(const MeshCommand& command) {
   if (!model.ok()) return fail(model.error(), command.input);
   MeshOptions options = command.options;
   options.trace = !command.trace.empty();
+  if (!command.sizing.empty()) {
+    Result<std::vector<double>> sizes = spreadSizing(options.sizes, model.value());
+    if (!sizes.ok()) return fail(sizes.error(), command.sizing);
+    options.sizes = std::move(sizes).value();
+  }
   const Result<MeshResult> result = meshSurface(model.value().mesh, options, progress);
   console.clear();
   if (!result.ok()) return fail(result.error(), command.input);

@@ -215,6 +215,14 @@ std::string meshText(const MeshResult& result) {
   if (fallbacks > kMostLines) reasons += line("", "... and " + std::to_string(fallbacks - kMostLines) + " more");
   std::vector<std::string> parts;
   for (const auto& [method, count] : methods) parts.push_back(std::to_string(count) + " by " + method);
+  if (result.sizing.bySizes > 0) {
+    reasons += line("", "sizes asked for at " + counted(result.sizing.bySizes, "vertex", "vertices") + " of the part");
+  }
+  if (result.sizing.byCurvature > 0) {
+    reasons +=
+        line("", "smaller elements for the chord error at " + counted(result.sizing.byCurvature, "vertex", "vertices") +
+                     " of the part, " + std::to_string(result.sizing.floored) + " of them at a tenth of the size");
+  }
   if (result.refinedPlaces > 0) {
     const std::string places = counted(result.refinedPlaces, "place", "places");
     reasons += line("", "smaller elements at " + places + " that elements of the size could not follow");

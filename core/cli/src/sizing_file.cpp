@@ -2,38 +2,45 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <cstddef>
-#include <numeric>
-#include <tuple>
+#include <cstdint>
+#include <string_view>
+
+#include "files.hpp"
 
 namespace qmcf::cli {
 namespace {
 
-/// Per vertex: whether it is the first one at its point.
-std::vector<bool> firstAtPoint(const std::vector<Vec3>& positions) {
-  std::vector<std::size_t> order(positions.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  const auto point = [&](std::size_t v) {
-    return std::tuple(positions[v].x + 0.0, positions[v].y + 0.0, positions[v].z + 0.0);  // -0 becomes 0.
-  };
-  std::sort(order.begin(), order.end(),
-            [&](std::size_t a, std::size_t b) { return std::tuple(point(a), a) < std::tuple(point(b), b); });
-  std::vector<bool> first(positions.size(), false);
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    first[order[i]] = i == 0 || point(order[i]) != point(order[i - 1]);
-  }
-  return first;
+std::string_view trimmed(std::string_view text) {
+  constexpr std::string_view kBlank = " \t\r";
+  const std::size_t first = text.find_first_not_of(kBlank);
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(kBlank) - first + 1);
+}
+
+Error wrongLine(std::size_t line, const std::string& what) {
+  return {ErrorCode::malformedInput,
+          "Line " + std::to_string(line) + ": " + what +
+              ". Each line must hold one edge length above 0, for one vertex of the model.",
+          {static_cast<std::int64_t>(line)}};
+}
+
+/// A line for a message, not longer than fits there.
+std::string quoted(std::string_view text) {
+  constexpr std::size_t kMost = 40;
+  return "\"" + std::string(text.substr(0, kMost)) + (text.size() > kMost ? "..." : "") + "\"";
 }
 
 }  // namespace
 
 std::string sizingText(const ReadModel& model, const std::vector<double>& size) {
-  const bool isStl = model.format == InputFormat::stlAscii || model.format == InputFormat::stlBinary;
-  std::vector<bool> written(size.size(), true);
-  if (isStl) written = firstAtPoint(model.mesh.positions);
+  const std::vector<std::int32_t> vertices = fileVertices(model);
   std::string text;
+  std::int32_t written = 0;
   for (std::size_t v = 0; v < size.size(); ++v) {
-    if (!written[v]) continue;
+    if (vertices[v] < written) continue;
+    ++written;
     constexpr std::size_t kMostDigits = 32;
     char digits[kMostDigits];
     const auto [end, error] = std::to_chars(digits, digits + kMostDigits, size[v]);
@@ -41,6 +48,51 @@ std::string sizingText(const ReadModel& model, const std::vector<double>& size) 
     text.append(digits, end).push_back('\n');
   }
   return text;
+}
+
+Result<std::vector<double>> readSizing(const std::string& path) {
+  const Result<std::vector<std::byte>> bytes = readFile(path);
+  if (!bytes.ok()) return bytes.error();
+  std::string_view rest(reinterpret_cast<const char*>(bytes.value().data()), bytes.value().size());
+  rest = rest.substr(0, rest.find_last_not_of(" \t\r\n") + 1);
+  if (rest.empty())
+    return Error{
+        ErrorCode::malformedInput, "The file is empty. It must hold one edge length for each vertex of the model.", {}};
+  std::vector<double> sizes;
+  while (!rest.empty()) {
+    const std::size_t end = std::min(rest.find('\n'), rest.size());
+    const std::string_view text = trimmed(rest.substr(0, end));
+    rest.remove_prefix(std::min(end + 1, rest.size()));
+    const std::size_t line = sizes.size() + 1;
+    if (text.empty()) return wrongLine(line, "there is no number");
+    double size = 0.0;
+    const auto [last, error] = std::from_chars(text.data(), text.data() + text.size(), size);
+    if (error == std::errc::invalid_argument || last != text.data() + text.size()) {
+      return wrongLine(line, quoted(text) + " is not a number");
+    }
+    if (error != std::errc() || !std::isfinite(size)) {
+      return wrongLine(line, quoted(text) + " is no finite number");
+    }
+    if (!(size > 0.0)) return wrongLine(line, quoted(text) + " is not above 0");
+    sizes.push_back(size);
+  }
+  return sizes;
+}
+
+Result<std::vector<double>> spreadSizing(const std::vector<double>& sizes, const ReadModel& model) {
+  const std::vector<std::int32_t> vertices = fileVertices(model);
+  const auto most = std::max_element(vertices.begin(), vertices.end());
+  const std::size_t count = most == vertices.end() ? 0 : static_cast<std::size_t>(*most) + 1;
+  if (sizes.size() != count) {
+    return Error{ErrorCode::malformedInput,
+                 "The file has " + std::to_string(sizes.size()) + " lines, but the model has " + std::to_string(count) +
+                     " vertices. Give one length per vertex, in the model's order, as --sizing-out writes them.",
+                 {}};
+  }
+  std::vector<double> spread;
+  spread.reserve(vertices.size());
+  for (const std::int32_t v : vertices) spread.push_back(sizes[static_cast<std::size_t>(v)]);
+  return spread;
 }
 
 }  // namespace qmcf::cli

@@ -3,12 +3,20 @@
 #include <string>
 #include <vector>
 
+#include "qmcf/base/result.hpp"
 #include "qmcf/io/read.hpp"
 
 namespace qmcf::cli {
 
-/// One number per line for each vertex of the file, in its order. STL has no vertices: there, for each different point,
-/// in the order of their first appearance. `size`: per vertex as read.
+/// One number per line for each vertex of the file (fileVertices()), in its order. `size`: per vertex as read.
 std::string sizingText(const ReadModel& model, const std::vector<double>& size);
+
+/// The numbers of such a file, each above 0. Empty lines at its end are allowed.
+/// Errors: those of readFile(); malformedInput, naming the line.
+Result<std::vector<double>> readSizing(const std::string& path);
+
+/// Numbers for the vertices of a model's file as numbers for its vertices as read.
+/// Errors: malformedInput if the file has more or fewer vertices.
+Result<std::vector<double>> spreadSizing(const std::vector<double>& sizes, const ReadModel& model);
 
 }  // namespace qmcf::cli

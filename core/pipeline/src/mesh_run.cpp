@@ -363,6 +363,7 @@ class MeshRun {
     for (const CrossField& field : prepared.fields) {
       result_.fieldSingularities += static_cast<std::int64_t>(field.singularities.size());
     }
+    result_.sizing = prepared.size.sources;
     result_.refinedPlaces = static_cast<std::int64_t>(prepared.size.limits.size());
     sizes_ = {prepared.size.base, prepared.size.limits, prepared.minimumDivisions, prepared.size.chordSize};
     // Where the count was corrected, the sizes used are not those that were asked for.

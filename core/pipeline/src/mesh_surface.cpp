@@ -2,12 +2,14 @@
 #include "qmcf/pipeline/mesh_surface.hpp"
 
 #include <cmath>
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <utility>
 
 #include "mesh_run.hpp"
 #include "prepare.hpp"
+#include "vertex_sizes.hpp"
 
 namespace qmcf {
 namespace {
@@ -16,31 +18,52 @@ constexpr std::int64_t kDefaultQuads = 3000;
 constexpr std::int64_t kMostQuads = 10'000'000;
 constexpr std::int64_t kMostThreads = 256;
 
-MeshOptions withDefaults(MeshOptions options) {
-  if (!options.size && !options.quads) options.quads = kDefaultQuads;
+Error invalid(std::string message) { return {ErrorCode::invalidOption, std::move(message), {}}; }
+
+bool isLength(double x) { return std::isfinite(x) && x > 0.0; }
+
+std::optional<Error> validateSizes(const MeshOptions& options) {
+  if (options.size && options.quads) return invalid("Give either size or quads, not both.");
+  if (options.size && !isLength(*options.size)) {
+    return invalid("size must be a positive length in units of the model.");
+  }
+  if (options.quads && (*options.quads < 1 || *options.quads > kMostQuads)) {
+    return invalid("quads must be between 1 and 10,000,000.");
+  }
+  if (options.curvature && !isLength(*options.curvature)) {
+    return invalid("curvature must be a positive distance in units of the model.");
+  }
+  if (options.quads && !options.sizes.empty()) {
+    return invalid(
+        "Give either sizes or quads, not both: the sizes say how many elements there are. size may go with them.");
+  }
+  for (std::size_t i = 0; i < options.sizes.size(); ++i) {
+    if (isLength(options.sizes[i])) continue;
+    return Error{ErrorCode::invalidOption,
+                 "sizes[" + std::to_string(i) + "] must be a positive length in units of the model.",
+                 {static_cast<std::int64_t>(i)}};
+  }
+  return std::nullopt;
+}
+
+/// The options of a run on an inspected part: with defaults, and with sizes at the vertices of the repaired mesh.
+Result<MeshOptions> optionsFor(const TriangleMesh& input, const InspectResult& inspected, MeshOptions options) {
+  if (options.sizes.empty()) {
+    if (!options.size && !options.quads) options.quads = kDefaultQuads;
+    return options;
+  }
+  auto sizes = sizesOfRepaired(options.sizes, input, inspected.repaired.mesh);
+  if (!sizes) return sizes.error();
+  options.sizes = std::move(sizes).value();
   return options;
 }
-
-/// As above, for a run that wants the field whatever front would ask it.
-MeshOptions withField(MeshOptions options) {
-  options.mode = Mode::qmcf;
-  return withDefaults(std::move(options));
-}
-
-Error invalid(std::string message) { return {ErrorCode::invalidOption, std::move(message), {}}; }
 
 }  // namespace
 
 std::string_view modeName(Mode mode) { return mode == Mode::qmcf ? "qmcf" : "qmorph"; }
 
 std::optional<Error> validateOptions(const MeshOptions& options) {
-  if (options.size && options.quads) return invalid("Give either size or quads, not both.");
-  if (options.size && !(std::isfinite(*options.size) && *options.size > 0.0)) {
-    return invalid("size must be a positive length in units of the model.");
-  }
-  if (options.quads && (*options.quads < 1 || *options.quads > kMostQuads)) {
-    return invalid("quads must be between 1 and 10,000,000.");
-  }
+  if (auto error = validateSizes(options)) return error;
   if (!(options.featureAngle > 0.0 && options.featureAngle < 180.0)) {
     return invalid("featureAngle must be between 0 and 180 degrees.");
   }
@@ -74,7 +97,10 @@ Result<FieldResult> computeField(const TriangleMesh& input, const MeshOptions& o
   if (!inspected) return inspected.error();
   FieldResult result;
   result.input = std::move(inspected).value();
-  auto prepared = prepareFaces(result.input.repaired.mesh, result.input.brep, withField(options), progress);
+  auto own = optionsFor(input, result.input, options);
+  if (!own) return own.error();
+  own.value().mode = Mode::qmcf;  // The field is wanted whatever front would ask it.
+  auto prepared = prepareFaces(result.input.repaired.mesh, result.input.brep, own.value(), progress);
   if (!prepared) return prepared.error();
   result.size = prepared.value().size.base;
   result.patches = std::move(prepared.value().patches);
@@ -86,7 +112,9 @@ Result<MeshResult> meshSurface(const TriangleMesh& input, const MeshOptions& opt
   if (const auto error = validateOptions(options)) return *error;
   auto inspected = inspectSurface(input, options, progress);
   if (!inspected) return inspected.error();
-  return meshInspected(input, std::move(inspected).value(), withDefaults(options), progress);
+  const auto own = optionsFor(input, inspected.value(), options);
+  if (!own) return own.error();
+  return meshInspected(input, std::move(inspected).value(), own.value(), progress);
 }
 
 }  // namespace qmcf

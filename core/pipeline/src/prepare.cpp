@@ -35,11 +35,16 @@ SizingOptions sizingOptions(const MeshOptions& options) {
   SizingOptions sizing;
   sizing.size = options.size;
   sizing.quads = options.quads;
+  sizing.vertexSize = options.sizes;
+  sizing.curvature = options.curvature;
   sizing.gradation = options.gradation;
   sizing.divisionsPerTurn = kDivisionsPerTurn;
   if (options.allQuad) {
     // Each element will be cut at the middles of its edges.
     if (sizing.size) *sizing.size *= 2.0;
+    for (double& size : sizing.vertexSize) size *= 2.0;
+    // The middle of a chord twice as long is four times as far from its arc.
+    if (sizing.curvature) *sizing.curvature *= 4.0;
     if (sizing.quads) *sizing.quads = std::max<std::int64_t>(1, *sizing.quads / 4);
     sizing.divisionsPerTurn = kDivisionsPerTurn / 2;
   }

@@ -34,6 +34,10 @@ Json toValue(const SizeConformity& sizes) {
           {"withinSqrt2", sizes.withinSqrt2}};
 }
 
+Json toValue(const SizeSources& sources) {
+  return {{"bySizes", sources.bySizes}, {"byCurvature", sources.byCurvature}, {"floored", sources.floored}};
+}
+
 Json toValue(const ValidityCheck& check) {
   return {{"name", check.name},
           {"status", checkStatusName(check.status)},
@@ -190,6 +194,7 @@ std::string toJson(const MeshResult& result) {
                {"refinedPlaces", result.refinedPlaces},
                {"heldFaces", result.heldFaces},
                {"slidNodes", result.slidNodes},
+               {"sizing", toValue(result.sizing)},
                {"sizeConformity", toValue(result.sizeConformity)}});
 }
 

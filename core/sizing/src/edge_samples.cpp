@@ -31,6 +31,25 @@ double sizeByTurning(const Turning& turning, double s, double maxTurn, double mo
   return std::max(low, lowest);
 }
 
+/// Samples from one place of `bound` up to the next, at equal parts of the number of elements between them.
+void appendSamples(EdgeSizes& sizes, const EdgeSizes& bound, std::size_t i, double spacing) {
+  constexpr double kNearlyEqual = 1e-3;
+  const double length = bound.arcLength[i + 1] - bound.arcLength[i];
+  const double from = bound.value[i];
+  const double to = bound.value[i + 1];
+  const double growth = math::log(to / from);
+  const bool isLevel = std::fabs(growth) < kNearlyEqual;
+  const double mean = isLevel ? 0.5 * (from + to) : (to - from) / growth;
+  const double pieces = std::max(1.0, std::ceil(length / (spacing * mean)));
+  for (double piece = 0.0; piece < pieces; piece += 1.0) {
+    const double share = piece / pieces;
+    // The size is linear along the edge, so that it grows by the same factor from sample to sample.
+    const double place = isLevel ? share : (math::exp(growth * share) - 1.0) / (math::exp(growth) - 1.0);
+    sizes.arcLength.push_back(bound.arcLength[i] + length * place);
+    sizes.value.push_back(from + (to - from) * place);
+  }
+}
+
 }  // namespace
 
 void EdgeSamples::lower(std::int32_t edge, double s, double size) {
@@ -59,6 +78,20 @@ void resample(EdgeSamples& samples, double base, double spacing) {
   }
 }
 
+void resampleUnder(EdgeSamples& samples, double base, double spacing, const std::vector<EdgeSizes>& bounds) {
+  samples.base = base;
+  samples.sizes.clear();
+  samples.highest.clear();
+  for (const EdgeSizes& bound : bounds) {
+    EdgeSizes sizes;
+    for (std::size_t i = 0; i + 1 < bound.value.size(); ++i) appendSamples(sizes, bound, i, spacing);
+    sizes.arcLength.push_back(bound.arcLength.back());
+    sizes.value.push_back(bound.value.back());
+    samples.highest.push_back(sizes.value);
+    samples.sizes.push_back(std::move(sizes));
+  }
+}
+
 std::vector<std::int32_t> limitByTurning(EdgeSamples& samples, std::int32_t divisionsPerTurn, double lowest,
                                          double mostSagitta) {
   // Wiggles below these are noise: of the element size, and of a small edge's own length.
@@ -70,7 +103,8 @@ std::vector<std::int32_t> limitByTurning(EdgeSamples& samples, std::int32_t divi
   for (std::size_t e = 0; e < samples.curves.size(); ++e) {
     const EdgeCurve& curve = samples.curves[e];
     if (curve.points.size() < 3) continue;
-    const Turning turning = turningOf(curve, std::min(kOfSize * samples.base, kOfLength * curve.length()));
+    const Turning turning =
+        turningOf(curve, std::min({kOfSize * samples.base, kOfLength * curve.length(), mostSagitta}));
     if (curve.closed) minimum[e] = turning.total() >= kNearlyFullTurn * fullTurn ? divisionsPerTurn : 3;
     EdgeSizes& sizes = samples.sizes[e];
     for (std::size_t i = 0; i < sizes.value.size(); ++i) {

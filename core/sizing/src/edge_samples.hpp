@@ -14,6 +14,8 @@ namespace qmcf {
 struct EdgeSamples {
   std::vector<EdgeCurve> curves;  ///< Per edge.
   std::vector<EdgeSizes> sizes;   ///< Per edge.
+  /// Per edge, per sample: the size before anything lowered it. Empty: the base size everywhere.
+  std::vector<std::vector<double>> highest;
   double base = 0.0;
 
   /// Lowers the sizes at the samples on both sides of arc length s.
@@ -29,6 +31,10 @@ struct Gap {
 
 /// Puts samples at each point of every edge and, between points, at most `spacing` apart, all with the size `base`.
 void resample(EdgeSamples& samples, double base, double spacing);
+
+/// The same under sizes along the edges, at most `base`: samples at each of their places and, between, at most so many
+/// sizes apart.
+void resampleUnder(EdgeSamples& samples, double base, double spacing, const std::vector<EdgeSizes>& bounds);
 
 /// Lowers sizes where an edge turns by more than a full turn / divisionsPerTurn within the size, or is farther than
 /// mostSagitta (a length) from a chord of the size. Returns the least number of divisions per edge.

@@ -15,6 +15,7 @@ namespace {
 struct Piece {
   std::array<Vec3, 3> corner;
   double area;
+  std::array<double, 3> size{};  ///< At the corners, where there are sizes inside the face.
 };
 
 double areaOf(const std::array<Vec3, 3>& c) { return 0.5 * norm(cross(c[1] - c[0], c[2] - c[0])); }
@@ -30,15 +31,43 @@ std::array<Piece, 2> halves(const Piece& piece) {
   const Vec3& b = piece.corner[(longest + 1) % 3];
   const Vec3& c = piece.corner[(longest + 2) % 3];
   const Vec3 m = (a + b) * 0.5;
-  return {Piece{{a, m, c}, 0.5 * piece.area}, Piece{{m, b, c}, 0.5 * piece.area}};
+  const double first = piece.size[longest];
+  const double second = piece.size[(longest + 1) % 3];
+  const double third = piece.size[(longest + 2) % 3];
+  const double middle = 0.5 * (first + second);
+  return {Piece{{a, m, c}, 0.5 * piece.area, {first, middle, third}},
+          Piece{{m, b, c}, 0.5 * piece.area, {middle, second, third}}};
 }
 
 }  // namespace
+
+/// The sizes that some nodes of a face make around them.
+class SampleGraph::Cones {
+ public:
+  Cones(const SampleGraph& graph, const std::vector<std::int32_t>& tips, double gradation)
+      : graph_(graph), grid_(graph.position_, tips, graph.farthest(gradation)), gradation_(gradation) {}
+
+  /// At most `highest`.
+  [[nodiscard]] double at(const Vec3& p, double highest) const {
+    double h = highest;
+    grid_.forEachNear(p, [&](std::int32_t tip) {
+      const auto n = static_cast<std::size_t>(tip);
+      h = std::min(h, graph_.size_[n] + gradation_ * distance(p, graph_.position_[n]));
+    });
+    return h;
+  }
+
+ private:
+  const SampleGraph& graph_;
+  PointGrid grid_;
+  double gradation_;
+};
 
 SampleGraph::SampleGraph(const EdgeSamples& samples, const Brep& brep, const std::vector<SizeLimit>& limits)
     : base_(samples.base) {
   position_.resize(brep.vertices.size());
   size_.assign(brep.vertices.size(), base_);
+  highest_.assign(brep.vertices.size(), base_);
   ofEdge_.resize(samples.sizes.size());
   for (std::size_t e = 0; e < samples.sizes.size(); ++e) {
     const EdgeSizes& sizes = samples.sizes[e];
@@ -51,17 +80,20 @@ SampleGraph::SampleGraph(const EdgeSamples& samples, const Brep& brep, const std
       } else {
         position_.emplace_back();
         size_.push_back(base_);
+        highest_.push_back(base_);
       }
       ofEdge_[e].push_back(node);
       const auto n = static_cast<std::size_t>(node);
       position_[n] = samples.curves[e].at(sizes.arcLength[i]);
       size_[n] = std::min(size_[n], sizes.value[i]);
+      if (!samples.highest.empty()) highest_[n] = std::min(highest_[n], samples.highest[e][i]);
     }
   }
   firstLimit_ = position_.size();
   for (const SizeLimit& limit : limits) {
     position_.push_back(limit.position);
     size_.push_back(std::min(limit.size, base_));
+    highest_.push_back(base_);
   }
   neighbors_.resize(position_.size());
   for (std::size_t e = 0; e < samples.sizes.size(); ++e) {
@@ -95,14 +127,16 @@ SampleGraph::SampleGraph(const EdgeSamples& samples, const Brep& brep, const std
 
 double SampleGraph::farthest(double gradation) const {
   double smallest = base_;
-  for (const double size : size_) smallest = std::min(smallest, size);
+  for (std::size_t n = 0; n < size_.size(); ++n) {
+    if (size_[n] < highest_[n]) smallest = std::min(smallest, size_[n]);
+  }
   return std::max((base_ - smallest) / gradation, base_);
 }
 
 void SampleGraph::grade(double gradation) {
   MinHeap heap;
   for (std::size_t n = 0; n < size_.size(); ++n) {
-    if (size_[n] < base_) heap.push(size_[n], static_cast<std::int32_t>(n));
+    if (size_[n] < highest_[n]) heap.push(size_[n], static_cast<std::int32_t>(n));
   }
   if (heap.empty()) return;
   const double reach = farthest(gradation);
@@ -135,17 +169,11 @@ void SampleGraph::grade(double gradation) {
 }
 
 /// Integral of 1 / h^2 by samples: one for each piece of about half an element of the base size.
-double SampleGraph::countOnFace(const TriangleMesh& mesh, const BrepFace& face,
-                                const std::vector<std::int32_t>& sources, double gradation) const {
+double SampleGraph::countOnFace(const TriangleMesh& mesh, const BrepFace& face, const Cones& cones) const {
   const double sampleArea = 0.5 * base_ * base_;
-  const PointGrid grid(position_, sources, farthest(gradation));
   double sum = 0.0;
   const auto addSample = [&](const Vec3& p, double area) {
-    double h = base_;
-    grid.forEachNear(p, [&](std::int32_t source) {
-      const auto n = static_cast<std::size_t>(source);
-      h = std::min(h, size_[n] + gradation * distance(p, position_[n]));
-    });
+    const double h = cones.at(p, base_);
     sum += area / (h * h);
   };
   double pending = 0.0;  // Area of small triangles that no sample stands for yet.
@@ -174,15 +202,49 @@ double SampleGraph::countOnFace(const TriangleMesh& mesh, const BrepFace& face,
   return sum + pending / (base_ * base_);
 }
 
-double SampleGraph::count(const TriangleMesh& mesh, const Brep& brep, double gradation) const {
+/// The same where there are sizes inside the face: samples in pieces of about half an element of these.
+double SampleGraph::countUnder(const InnerSizes& inner, std::size_t face, const Cones& cones) const {
+  double sum = 0.0;
+  std::vector<Piece> open;
+  for (std::size_t t = inner.firstOfFace[face]; t < inner.firstOfFace[face + 1]; ++t) {
+    Piece whole{};
+    for (std::size_t c = 0; c < 3; ++c) {
+      const auto v = static_cast<std::size_t>(inner.triangles[t][c]);
+      whole.corner[c] = inner.positions[v];
+      whole.size[c] = inner.value[v];
+    }
+    whole.area = areaOf(whole.corner);
+    open.assign(1, whole);
+    while (!open.empty()) {
+      const Piece piece = open.back();
+      open.pop_back();
+      const double smallest = *std::min_element(piece.size.begin(), piece.size.end());
+      if (piece.area > 0.5 * smallest * smallest) {
+        for (const Piece& half : halves(piece)) open.push_back(half);
+        continue;
+      }
+      const Vec3 middle = (piece.corner[0] + piece.corner[1] + piece.corner[2]) / 3.0;
+      const double h = cones.at(middle, (piece.size[0] + piece.size[1] + piece.size[2]) / 3.0);
+      sum += piece.area / (h * h);
+    }
+  }
+  return sum;
+}
+
+double SampleGraph::count(const TriangleMesh& mesh, const Brep& brep, const InnerSizes& inner, double gradation) const {
   double sum = 0.0;
   for (std::size_t f = 0; f < brep.faces.size(); ++f) {
-    std::vector<std::int32_t> sources;
+    std::vector<std::int32_t> tips;
     for (const std::int32_t n : ofFace_[f]) {
-      if (size_[static_cast<std::size_t>(n)] < base_) sources.push_back(n);
+      const auto node = static_cast<std::size_t>(n);
+      if (size_[node] < highest_[node]) tips.push_back(n);
     }
-    sum +=
-        sources.empty() ? brep.faces[f].area / (base_ * base_) : countOnFace(mesh, brep.faces[f], sources, gradation);
+    if (!inner.empty()) {
+      sum += countUnder(inner, f, Cones(*this, tips, gradation));
+    } else {
+      sum += tips.empty() ? brep.faces[f].area / (base_ * base_)
+                          : countOnFace(mesh, brep.faces[f], Cones(*this, tips, gradation));
+    }
   }
   return sum;
 }

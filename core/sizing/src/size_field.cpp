@@ -3,12 +3,15 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
+#include <optional>
 #include <string>
 #include <utility>
 
 #include "edge_samples.hpp"
+#include "inner_sources.hpp"
+#include "mesh_gradation.hpp"
 #include "qmcf/base/math.hpp"
-#include "qmcf/sizing/min_heap.hpp"
 #include "sample_graph.hpp"
 
 namespace qmcf {
@@ -30,21 +33,51 @@ constexpr std::int64_t kMostQuads = 10'000'000;
 
 Error invalid(std::string message) { return {ErrorCode::invalidOption, std::move(message), {}}; }
 
-Result<double> baseSize(const Brep& brep, const SizingOptions& options) {
+Error tooFine() {
+  return invalid(
+      "Sizes and curvature would take more than 10,000,000 quads; choose larger sizes or a larger distance.");
+}
+
+/// The first option out of range.
+std::optional<Error> checkOptions(const TriangleMesh& mesh, const SizingOptions& options) {
+  const auto isLength = [](double x) { return x > 0.0 && std::isfinite(x); };
+  if (!(options.gradation > 0.0) || options.gradation > 1.0) {
+    return invalid("The gradation must be above 0 and at most 1.");
+  }
+  if (options.chordSize && !(*options.chordSize > 0.0)) return invalid("The chord size must be above 0.");
+  if (options.divisionsPerTurn < 3) return invalid("A full turn needs at least 3 divisions.");
   if (options.size && options.quads) return invalid("Give either an element size or a number of quads, not both.");
+  if (options.size && !isLength(*options.size)) return invalid("The element size must be above 0.");
+  const std::int64_t quads = options.quads.value_or(kDefaultQuads);
+  if (quads < 1 || quads > kMostQuads) return invalid("The number of quads must be between 1 and 10,000,000.");
+  if (options.curvature && !isLength(*options.curvature)) return invalid("The distance of chords must be above 0.");
+  if (options.vertexSize.empty()) return std::nullopt;
+  if (options.quads) return invalid("Give either sizes at the vertices or a number of quads, not both.");
+  if (options.vertexSize.size() != mesh.positions.size()) return invalid("Each vertex of the mesh needs one size.");
+  if (!std::all_of(options.vertexSize.begin(), options.vertexSize.end(), isLength)) {
+    return invalid("The sizes at the vertices must be above 0.");
+  }
+  return std::nullopt;
+}
+
+Result<double> baseSize(const TriangleMesh& mesh, const Brep& brep, const SizingOptions& options) {
   double area = 0.0;
   for (const BrepFace& face : brep.faces) area += face.area;
   if (!(area > 0.0)) return Error{ErrorCode::noSurface, "The part has no area to mesh.", {}};
-  if (options.size) {
-    if (!(*options.size > 0.0) || !std::isfinite(*options.size)) return invalid("The element size must be above 0.");
-    if (area / *options.size / *options.size > static_cast<double>(kMostQuads)) {
-      return invalid("This element size would take more than 10,000,000 quads; choose a larger one.");
-    }
-    return *options.size;
+  if (!options.size && options.vertexSize.empty()) {
+    return std::sqrt(area / static_cast<double>(options.quads.value_or(kDefaultQuads)));
   }
-  const std::int64_t quads = options.quads.value_or(kDefaultQuads);
-  if (quads < 1 || quads > kMostQuads) return invalid("The number of quads must be between 1 and 10,000,000.");
-  return std::sqrt(area / static_cast<double>(quads));
+  double base = options.size.value_or(0.0);
+  if (!options.size) {
+    std::vector<double> graded = options.vertexSize;
+    MeshGradation(mesh.positions, mesh.triangles)
+        .grade(graded, std::numeric_limits<double>::infinity(), options.gradation);
+    base = *std::max_element(graded.begin(), graded.end());
+  }
+  if (area / base / base > static_cast<double>(kMostQuads)) {
+    return invalid("This element size would take more than 10,000,000 quads; choose a larger one.");
+  }
+  return base;
 }
 
 /// Distance of an arc from its chord, in units of the chord, where so many chords make a full turn.
@@ -79,31 +112,6 @@ class CountSearch {
   double y_ = 0.0;
 };
 
-/// Neighbours along the edges of the triangles, as one flat table.
-struct Adjacency {
-  std::vector<std::size_t> first;
-  std::vector<std::int32_t> vertex;
-};
-
-Adjacency adjacencyOf(const TriangleMesh& mesh) {
-  Adjacency adjacency;
-  adjacency.first.assign(mesh.positions.size() + 1, 0);
-  for (const auto& t : mesh.triangles) {
-    for (const std::int32_t v : t) adjacency.first[static_cast<std::size_t>(v) + 1] += 2;
-  }
-  for (std::size_t v = 0; v < mesh.positions.size(); ++v) adjacency.first[v + 1] += adjacency.first[v];
-  adjacency.vertex.resize(adjacency.first.back());
-  std::vector<std::size_t> next = adjacency.first;
-  for (const auto& t : mesh.triangles) {
-    for (std::size_t c = 0; c < 3; ++c) {
-      const auto v = static_cast<std::size_t>(t[c]);
-      adjacency.vertex[next[v]++] = t[(c + 1) % 3];
-      adjacency.vertex[next[v]++] = t[(c + 2) % 3];
-    }
-  }
-  return adjacency;
-}
-
 /// Lowers the sizes at the vertices of each face to the cones of the limits in it.
 void applyLimits(std::vector<double>& value, const TriangleMesh& mesh, const Brep& brep,
                  const std::vector<SizeLimit>& limits, double gradation) {
@@ -117,10 +125,12 @@ void applyLimits(std::vector<double>& value, const TriangleMesh& mesh, const Bre
   }
 }
 
-/// Sizes at the vertices of the mesh: those on edges are given, the others are graded along the triangles' edges.
+/// Sizes at the vertices of the mesh: those on edges and inside faces are given, then graded along the triangles'
+/// edges.
 std::vector<double> vertexSizes(const TriangleMesh& mesh, const Brep& brep, const EdgeSamples& samples,
-                                const std::vector<SizeLimit>& limits, double gradation) {
+                                const InnerSizes& inner, const std::vector<SizeLimit>& limits, double gradation) {
   std::vector<double> value(mesh.positions.size(), samples.base);
+  if (!inner.empty()) std::copy_n(inner.value.begin(), value.size(), value.begin());
   for (std::size_t e = 0; e < brep.edges.size(); ++e) {
     const EdgeCurve& curve = samples.curves[e];
     for (std::size_t i = 0; i < curve.points.size(); ++i) {
@@ -129,24 +139,8 @@ std::vector<double> vertexSizes(const TriangleMesh& mesh, const Brep& brep, cons
     }
   }
   applyLimits(value, mesh, brep, limits, gradation);
-  MinHeap heap;
-  for (std::size_t v = 0; v < value.size(); ++v) {
-    if (value[v] < samples.base) heap.push(value[v], static_cast<std::int32_t>(v));
-  }
-  if (heap.empty()) return value;
-  const Adjacency adjacency = adjacencyOf(mesh);
-  while (!heap.empty()) {
-    const auto [size, vertex] = heap.pop();
-    const auto v = static_cast<std::size_t>(vertex);
-    if (size > value[v]) continue;
-    for (std::size_t i = adjacency.first[v]; i < adjacency.first[v + 1]; ++i) {
-      const auto w = static_cast<std::size_t>(adjacency.vertex[i]);
-      const double graded = size + gradation * distance(mesh.positions[v], mesh.positions[w]);
-      if (!(graded < value[w])) continue;
-      value[w] = graded;
-      heap.push(graded, adjacency.vertex[i]);
-    }
-  }
+  const bool isLevel = std::all_of(value.begin(), value.end(), [&](double size) { return size >= samples.base; });
+  if (!isLevel) MeshGradation(mesh.positions, mesh.triangles).grade(value, samples.base, gradation);
   return value;
 }
 
@@ -154,34 +148,38 @@ std::vector<double> vertexSizes(const TriangleMesh& mesh, const Brep& brep, cons
 
 Result<SizeField> computeSizeField(const TriangleMesh& mesh, const Brep& brep, const SizingOptions& options,
                                    Progress& progress) {
-  if (!(options.gradation > 0.0) || options.gradation > 1.0) {
-    return invalid("The gradation must be above 0 and at most 1.");
-  }
-  if (options.chordSize && !(*options.chordSize > 0.0)) return invalid("The chord size must be above 0.");
-  if (options.divisionsPerTurn < 3) return invalid("A full turn needs at least 3 divisions.");
-  const Result<double> base = baseSize(brep, options);
+  if (std::optional<Error> error = checkOptions(mesh, options)) return *std::move(error);
+  const Result<double> base = baseSize(mesh, brep, options);
   if (!base.ok()) return base.error();
   if (!progress.report(Stage::sizing, 0.0)) return cancelledError();
 
-  const bool byCount = !options.size;
+  const bool byCount = !options.size && options.vertexSize.empty();
   EdgeSamples samples;
   for (const BrepEdge& edge : brep.edges) samples.curves.push_back(edgeCurve(mesh, edge));
   // Room for a base that grows until the count fits.
   const double reach = byCount ? kReachByCount * base.value() : base.value();
   const auto gaps = findGaps(samples.curves, mesh, brep, reach, kSampleSpacing * base.value(), progress);
   if (!gaps) return cancelledError();
+  const InnerSources sources(mesh, brep, options, base.value());
 
   SizeField field;
   field.base = base.value();
   field.gradation = options.gradation;
   field.mostSagitta = kRoomForSagitta * arcSagitta(options.divisionsPerTurn);
   field.chordSize = options.chordSize.value_or(base.value());
+  if (options.curvature) field.chordSize = std::min(field.chordSize, *options.curvature / field.mostSagitta);
   field.limits = options.limits;
   CountSearch search(field.base);
   const auto wanted = static_cast<double>(options.quads.value_or(kDefaultQuads));
   for (int attempt = 0; attempt < kAttempts; ++attempt) {
     if (!progress.report(Stage::sizing, 0.6 + 0.05 * attempt)) return cancelledError();
-    resample(samples, field.base, kSampleSpacing * field.base);
+    if (sources.empty()) {
+      resample(samples, field.base, kSampleSpacing * field.base);
+    } else {
+      field.inner = sources.sizes(field.base, options.gradation);
+      if (countOf(field.inner) > static_cast<double>(kMostQuads)) return tooFine();
+      resampleUnder(samples, field.base, kSampleSpacing, sources.alongEdges(brep, samples.curves, field.inner));
+    }
     field.minimumDivisions = limitByTurning(samples, options.divisionsPerTurn, kLowestByTurning * field.base,
                                             field.mostSagitta * field.chordSize);
     limitByLength(samples, kLowestByLength * field.base);
@@ -190,12 +188,13 @@ Result<SizeField> computeSizeField(const TriangleMesh& mesh, const Brep& brep, c
     graph.grade(options.gradation);
     graph.store(samples, field.limits);
     if (!byCount || attempt + 1 == kAttempts) break;
-    const double ratio = graph.count(mesh, brep, options.gradation) / wanted;
+    const double ratio = graph.count(mesh, brep, field.inner, options.gradation) / wanted;
     if (std::fabs(ratio - 1.0) < kCountTolerance) break;
     field.base = std::clamp(search.next(field.base, ratio), base.value(), reach);
   }
   levelAcross(samples, *gaps);
-  field.value = vertexSizes(mesh, brep, samples, field.limits, options.gradation);
+  field.sources = sources.counts(field.base);
+  field.value = vertexSizes(mesh, brep, samples, field.inner, field.limits, options.gradation);
   field.edges = std::move(samples.sizes);
   return field;
 }

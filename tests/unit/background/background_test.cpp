@@ -21,12 +21,10 @@ struct Remeshed {
 };
 
 /// Runs sizing, division and background of all faces, dividing again while a boundary is too coarse.
-Remeshed remesh(TriangleMesh mesh, double size) {
+Remeshed remesh(TriangleMesh mesh, const SizingOptions& options) {
   Remeshed r;
   r.mesh = std::move(mesh);
   r.brep = parts::brepOf(r.mesh);
-  SizingOptions options;
-  options.size = size;
   SilentProgress progress;
   Result<SizeField> field = computeSizeField(r.mesh, r.brep, options, progress);
   EXPECT_TRUE(field.ok());
@@ -51,6 +49,12 @@ Remeshed remesh(TriangleMesh mesh, double size) {
   }
   ADD_FAILURE() << "the boundary stays too coarse";
   return r;
+}
+
+Remeshed remesh(TriangleMesh mesh, double size) {
+  SizingOptions options;
+  options.size = size;
+  return remesh(std::move(mesh), options);
 }
 
 double areaOf(const Patch& patch) {
@@ -325,6 +329,30 @@ TEST(Background, StopsWhenAsked) {
   const Result<BackgroundResult> result = buildBackground(r.mesh, r.brep, 0, r.field, r.divided, {}, stop);
   ASSERT_FALSE(result.ok());
   EXPECT_EQ(result.error().code, ErrorCode::cancelled);
+}
+
+TEST(Background, FollowsSizesInsideFaces) {
+  // Two triangles in the plane, and a fine curved face.
+  const TriangleMesh flat = parts::sheet({0.0, 10.0}, {0.0, 10.0}, [](int, int) { return true; });
+  SizingOptions options;
+  options.vertexSize = {0.3, 1.3, 0.3, 1.3};
+  const Remeshed r = remesh(flat, options);
+  const Patch& patch = r.patches.at(0);
+  for (const VertexId v : patch.surface.vertices()) {
+    EXPECT_NEAR(patch.size[v], 0.3 + 0.1 * patch.surface.position(v).x, 0.01);
+  }
+  for (const HalfedgeId h : patch.surface.halfedges()) {
+    EXPECT_LT(patch.surface.length(h), 2.5 * patch.size[patch.surface.origin(h)]);
+  }
+
+  const TriangleMesh tube = parts::cylinderSide(48, 24, 1.0, 4.0);
+  options.vertexSize.clear();
+  for (const Vec3& p : tube.positions) options.vertexSize.push_back(0.05 + 0.1 * std::fabs(p.z - 2.0));
+  const Remeshed bent = remesh(tube, options);
+  for (const VertexId v : bent.patches.at(0).surface.vertices()) {
+    const double wanted = 0.05 + 0.1 * std::fabs(bent.patches[0].surface.position(v).z - 2.0);
+    EXPECT_NEAR(bent.patches[0].size[v], wanted, 0.1 * wanted);
+  }
 }
 
 }  // namespace

@@ -24,6 +24,15 @@ TEST(ReadStl, ReadsAscii) {
   EXPECT_EQ(model.mesh.labelNames, std::vector<std::string>{"part"});
 }
 
+TEST(FileVertices, AreTheDifferentPointsOfAnStlAndTheVerticesOfAnObj) {
+  const ReadModel model = readOk(
+      "solid s\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 1 1 0\nendloop\nendfacet\n"
+      "facet normal 0 0 1\nouter loop\nvertex -0 0 0\nvertex 1 1 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid s\n");
+  EXPECT_EQ(fileVertices(model), (std::vector<std::int32_t>{0, 1, 2, 0, 2, 3}));
+  const ReadModel twice = readOk("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\nf 4 5 6\n");
+  EXPECT_EQ(fileVertices(twice), (std::vector<std::int32_t>{0, 1, 2, 3, 4, 5}));
+}
+
 TEST(ReadStl, ReadsAsciiOfAnyCaseAndLayout) {
   const ReadModel model = readOk(
       "SOLID\r\nFACET NORMAL nan nan nan\r\nOUTER LOOP\r\nVERTEX 0 0 0 VERTEX 1 0 0\r\nVertex 0 1 "

@@ -366,5 +366,68 @@ TEST(MeshSurface, CanBeCancelledInEveryStage) {
   }
 }
 
+TEST(MeshSurface, MeshesBySizesAtTheVerticesOfTheInput) {
+  SilentProgress silent;
+  // Six sheets that share no vertex: where they meet, the smallest of their sizes holds.
+  const TriangleMesh part = shapes::cubeSoup(4);
+  MeshOptions options;
+  for (const Vec3& p : part.positions) options.sizes.push_back(0.04 + 0.08 * p.x);
+  for (std::size_t v = 0; v < part.positions.size() / 6; ++v) options.sizes[v] += 0.01;
+  const auto result = meshSurface(part, options, silent);
+  ASSERT_TRUE(result.ok()) << result.error().message;
+  expectGood(result.value());
+  EXPECT_GT(result.value().sizing.bySizes, 50);
+  EXPECT_LT(result.value().sizeConformity.meanAbsLog2, 0.35);
+  ASSERT_EQ(result.value().vertexSize.size(), part.positions.size());
+  for (std::size_t v = 0; v < part.positions.size(); ++v) {
+    EXPECT_NEAR(result.value().vertexSize[v], 0.04 + 0.08 * part.positions[v].x, 0.0101);
+  }
+  // What was written leads to the same field.
+  MeshOptions again;
+  again.sizes = result.value().vertexSize;
+  const auto second = meshSurface(part, again, silent);
+  ASSERT_TRUE(second.ok());
+  for (std::size_t v = 0; v < part.positions.size(); ++v) {
+    EXPECT_NEAR(second.value().vertexSize[v], result.value().vertexSize[v], 1e-9);
+  }
+}
+
+TEST(MeshSurface, KeepsChordsNearCurvedFaces) {
+  SilentProgress silent;
+  const TriangleMesh part = shapes::torus(120, 60, 3.0, 1.0);
+  MeshOptions options;
+  options.size = 1.0;
+  const auto coarse = meshSurface(part, options, silent);
+  options.curvature = 0.02;
+  for (const bool allQuad : {false, true}) {
+    options.allQuad = allQuad;
+    const auto fine = meshSurface(part, options, silent);
+    ASSERT_TRUE(coarse.ok() && fine.ok());
+    expectGood(fine.value());
+    // Edges come out up to a third longer than the size, the middle of a quad is twice as far as that of an edge.
+    EXPECT_LT(*fine.value().quality.largestDistance, 4.0 * 0.02) << allQuad;
+    EXPECT_LT(*fine.value().quality.meanDistance, 0.3 * *coarse.value().quality.meanDistance) << allQuad;
+    EXPECT_GT(fine.value().sizing.byCurvature, 0);
+  }
+}
+
+TEST(MeshSurface, RefusesSizesThatFitNothing) {
+  SilentProgress silent;
+  const TriangleMesh part = shapes::cubeSoup(1);
+  std::vector<MeshOptions> bad(4);
+  bad[0].sizes = {1.0, 2.0};
+  bad[1].sizes.assign(part.positions.size(), 0.2);
+  bad[1].quads = 100;
+  bad[2].sizes.assign(part.positions.size(), 0.2);
+  bad[2].sizes[5] = -1.0;
+  bad[3].curvature = HUGE_VAL;
+  for (const MeshOptions& options : bad) {
+    const auto result = meshSurface(part, options, silent);
+    ASSERT_FALSE(result.ok());
+    EXPECT_EQ(result.error().code, ErrorCode::invalidOption);
+  }
+  EXPECT_EQ(validateOptions(bad[2])->elements, std::vector<std::int64_t>{5});
+}
+
 }  // namespace
 }  // namespace qmcf

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <span>
 #include <string_view>
+#include <vector>
 
 #include "qmcf/base/progress.hpp"
 #include "qmcf/base/result.hpp"
@@ -28,6 +29,10 @@ struct ReadModel {
 /// Errors: emptyInput, unknownFormat, truncatedInput, malformedInput, indexOutOfRange, nonFiniteCoordinate, tooLarge,
 /// cancelled; messages name the line or the element.
 Result<ReadModel> readModel(std::span<const std::byte> bytes, Progress& progress);
+
+/// Per vertex of the mesh the vertex of the file that it is: itself in OBJ and PLY. STL has no vertices: there the
+/// different points (0 and -0 are equal) stand for them, numbered as they first appear. Complexity O(n log n).
+std::vector<std::int32_t> fileVertices(const ReadModel& model);
 
 /// Reads an OBJ or PLY of triangles and quadrilaterals as it is, for `qmcf check`.
 Result<QuadMesh> readQuadMesh(std::span<const std::byte> bytes, Progress& progress);

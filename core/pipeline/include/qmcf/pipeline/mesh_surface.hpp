@@ -14,6 +14,7 @@
 #include "qmcf/mesh/trace.hpp"
 #include "qmcf/mesh/triangle_mesh.hpp"
 #include "qmcf/quality/quality.hpp"
+#include "qmcf/sizing/size_field.hpp"
 #include "qmcf/topology/brep.hpp"
 #include "qmcf/topology/repair.hpp"
 
@@ -29,15 +30,24 @@ std::string_view modeName(Mode mode);
 
 /// All options of a run. The same names are used in C++, JSON and TypeScript.
 struct MeshOptions {
-  std::optional<double> size;         ///< Element edge length in units of the model, > 0. Excludes quads.
-  std::optional<std::int64_t> quads;  ///< Number of elements to aim at, 1 to 10,000,000. Default 3000 if size is unset.
-  double featureAngle = 30.0;         ///< Dihedral angle in degrees, (0, 180), from which an edge is sharp.
-  Mode mode = Mode::qmcf;             ///< The advancing front.
-  bool allQuad = false;       ///< No triangles: a mesh of twice the size with every element cut at its edges' middles.
-  bool repair = true;         ///< false: defects of the input are reported and left as they are.
-  double gradation = 0.2;     ///< Largest slope of the size field, (0, 1].
-  bool alignBoundary = true;  ///< Field constraint: boundary edges.
-  bool alignSharp = true;     ///< Field constraint: sharp edges.
+  std::optional<double> size;  ///< Element edge length in units of the model, > 0. Excludes quads.
+  /// Number of elements to aim at, 1 to 10,000,000. Excludes size and sizes. Default 3000 if neither is set.
+  std::optional<std::int64_t> quads;
+  /// Per vertex of the input: the largest element edge length there, in units of the model, finite and > 0; linear in
+  /// the triangles. Empty: none. Without size these are the sizes, with it the smaller of both is. Excludes quads.
+  std::vector<double> sizes;
+  /// Chord error, in units of the model, > 0: how far the middle of an element's edge may be from a face where that is
+  /// curved, and from a curved edge of the part. Elements get no smaller by it than a tenth of the size; a number of
+  /// elements holds with it, up to where three times the size would be needed elsewhere. Unset: curved faces have no
+  /// smaller elements than flat ones.
+  std::optional<double> curvature;
+  double featureAngle = 30.0;  ///< Dihedral angle in degrees, (0, 180), from which an edge is sharp.
+  Mode mode = Mode::qmcf;      ///< The advancing front.
+  bool allQuad = false;        ///< No triangles: a mesh of twice the size with every element cut at its edges' middles.
+  bool repair = true;          ///< false: defects of the input are reported and left as they are.
+  double gradation = 0.2;      ///< Largest slope of the size field, (0, 1].
+  bool alignBoundary = true;   ///< Field constraint: boundary edges.
+  bool alignSharp = true;      ///< Field constraint: sharp edges.
   bool alignNonManifold = true;      ///< Field constraint: non-manifold edges.
   bool alignCurvature = true;        ///< Field constraint: principal curvature.
   std::vector<FieldStroke> strokes;  ///< Field constraint: lines to follow (FieldOptions::strokes); finite, not points.
@@ -95,6 +105,7 @@ struct MeshResult {
   std::vector<FaceReport> faces;
   std::int64_t fieldSingularities = 0;  ///< 0 in a mode without a cross field.
   SizeConformity sizeConformity;
+  SizeSources sizing;              ///< How many vertices of the repaired input have another size than `size`, and why.
   std::vector<double> vertexSize;  ///< Per vertex of the input: the target edge length there.
   std::int64_t refinedPlaces = 0;  ///< Where elements of the size asked for could not follow the part: smaller there.
   /// Faces that were not relaxed together with the others, across their edges, because they would not be valid then.
