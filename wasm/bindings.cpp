@@ -5,11 +5,13 @@
 #include <emscripten/bind.h>
 #include <emscripten/val.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <new>
+#include <numeric>
 #include <optional>
 #include <span>
 #include <string>
@@ -121,6 +123,20 @@ std::optional<Error> assign(std::optional<std::int64_t>& option, std::string_vie
   return std::nullopt;
 }
 
+std::optional<Error> assign(std::vector<double>& option, std::string_view name, const val& given) {
+  const bool isTyped = given.instanceof (val::global("Float64Array")) || given.instanceof (val::global("Float32Array"));
+  if (!isTyped && !given.isArray()) {
+    return wrongOption(name, "a Float64Array, a Float32Array or an array of numbers");
+  }
+  // What is no number becomes NaN, which is no size.
+  const val numbers = val::global("Float64Array").call<val>("from", given);
+  option.resize(lengthOf(numbers));
+  if (!option.empty()) {
+    copyIn(numbers, option.data());
+  }
+  return std::nullopt;
+}
+
 std::optional<Error> assign(bool& option, std::string_view name, const val& given) {
   if (!given.isTrue() && !given.isFalse()) {
     return wrongOption(name, "true or false");
@@ -172,10 +188,12 @@ std::optional<Error> assign(std::vector<FieldStroke>& option, std::string_view n
 /// Calls visit(name, field) for every option. The structured binding fails to compile when MeshOptions gains a field.
 template <class Visit>
 void forEachOption(MeshOptions& options, Visit visit) {
-  auto& [size, quads, featureAngle, mode, allQuad, repair, gradation, alignBoundary, alignSharp, alignNonManifold,
-         alignCurvature, strokes, threads, trace] = options;
+  auto& [size, quads, sizes, curvature, featureAngle, mode, allQuad, repair, gradation, alignBoundary, alignSharp,
+         alignNonManifold, alignCurvature, strokes, threads, trace] = options;
   visit("size", size);
   visit("quads", quads);
+  visit("sizes", sizes);
+  visit("curvature", curvature);
   visit("featureAngle", featureAngle);
   visit("mode", mode);
   visit("allQuad", allQuad);
@@ -224,8 +242,14 @@ Result<MeshOptions> toOptions(const val& given) {
   return options;
 }
 
+/// A mesh, and per vertex of it the vertex of the file or buffers that it is.
+struct InputMesh {
+  TriangleMesh mesh;
+  std::vector<std::int32_t> vertices;
+};
+
 /// The mesh of {positions, triangles} or of {bytes}, a file's content.
-Result<TriangleMesh> toTriangleMesh(const val& input, Progress& progress) {
+Result<InputMesh> toInputMesh(const val& input, Progress& progress) {
   if (!input["bytes"].isUndefined()) {
     std::vector<std::byte> bytes(lengthOf(input["bytes"]));
     copyIn(input["bytes"], reinterpret_cast<std::uint8_t*>(bytes.data()));
@@ -233,7 +257,8 @@ Result<TriangleMesh> toTriangleMesh(const val& input, Progress& progress) {
     if (!model) {
       return model.error();
     }
-    return std::move(model).value().mesh;
+    std::vector<std::int32_t> vertices = fileVertices(model.value());
+    return InputMesh{std::move(model).value().mesh, std::move(vertices)};
   }
   const std::size_t coordinates = lengthOf(input["positions"]);
   const std::size_t corners = lengthOf(input["triangles"]);
@@ -248,7 +273,28 @@ Result<TriangleMesh> toTriangleMesh(const val& input, Progress& progress) {
   }
   copyIn(input["positions"], &mesh.positions.front().x);
   copyIn(input["triangles"], mesh.triangles.front().data());
-  return mesh;
+  std::vector<std::int32_t> vertices(mesh.positions.size());
+  std::iota(vertices.begin(), vertices.end(), 0);
+  return InputMesh{std::move(mesh), std::move(vertices)};
+}
+
+/// From one for each vertex of the file or buffers to one for each vertex as read.
+std::optional<Error> spreadSizes(MeshOptions& options, const std::vector<std::int32_t>& vertices) {
+  if (options.sizes.empty()) {
+    return std::nullopt;
+  }
+  const auto count = static_cast<std::size_t>(*std::max_element(vertices.begin(), vertices.end())) + 1;
+  if (options.sizes.size() != count) {
+    return Error{ErrorCode::invalidOption,
+                 "The option sizes must have one number for each of the model's " + std::to_string(count) +
+                     " vertices, not " + std::to_string(options.sizes.size()) + ".",
+                 {}};
+  }
+  const std::vector<double> sizes = std::exchange(options.sizes, {});
+  for (const std::int32_t v : vertices) {
+    options.sizes.push_back(sizes[static_cast<std::size_t>(v)]);
+  }
+  return std::nullopt;
 }
 
 val faceNames(const Brep& brep) {
@@ -396,15 +442,18 @@ val meshValue(const MeshResult& result) {
 template <class Stage, class ToValue>
 val run(const val& input, const val& options, Stage stage, ToValue toValue) {
   HostProgress progress;
-  const Result<MeshOptions> parsed = toOptions(options);
+  Result<MeshOptions> parsed = toOptions(options);
   if (!parsed) {
     return failure(parsed.error());
   }
-  const Result<TriangleMesh> mesh = toTriangleMesh(input, progress);
-  if (!mesh) {
-    return failure(mesh.error());
+  const Result<InputMesh> read = toInputMesh(input, progress);
+  if (!read) {
+    return failure(read.error());
   }
-  const auto result = stage(mesh.value(), parsed.value(), progress);
+  if (const auto error = spreadSizes(parsed.value(), read.value().vertices)) {
+    return failure(*error);
+  }
+  const auto result = stage(read.value().mesh, parsed.value(), progress);
   return result ? success(toValue(result.value())) : failure(result.error());
 }
 

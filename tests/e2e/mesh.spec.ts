@@ -96,6 +96,47 @@ test('the less the size may grow, the more elements there are', async ({ page })
   expect(counts[1]).toBeGreaterThan(counts[2]!);
 });
 
+test('a chord error makes smaller elements on curved faces, until it is cleared', async ({ page }) => {
+  await page.goto('./');
+  const app = new App(page);
+  await app.openSample('capsule.obj');
+  const result = page.getByRole('region', { name: 'Result' });
+  const counts: number[] = [];
+  for (const chordError of ['', '0.1', '']) {
+    await page.getByLabel('Chord error').fill(chordError);
+    await app.size.fill('8');
+    await app.generate.click();
+    await expect(app.status).toHaveText(/ quads? .*in .* s\.$/);
+    counts.push(Number((await result.locator('.headline dd').first().innerText()).replaceAll(',', '')));
+  }
+  expect(counts[1]).toBeGreaterThan(3 * counts[0]!);
+  expect(counts[2]).toBe(counts[0]);
+});
+
+test('sizes at the vertices come from a file, until they are cleared or a count is asked for', async ({ page }) => {
+  await page.goto('./');
+  const app = new App(page);
+  await app.openSample('capsule.obj');
+  const vertices = readFileSync(sample('capsule.obj'), 'utf8').match(/^v /gm)!.length;
+  const pick = (name: string, text: string) =>
+    page.getByLabel('Sizes file', { exact: true }).setInputFiles({ name, mimeType: 'text/plain', buffer: Buffer.from(text) });
+  await pick('broken.txt', '3\n2\nno\n');
+  await expect(app.alert).toContainText('Line 3');
+  await pick('few.txt', '3\n2\n');
+  await app.generate.click();
+  await expect(app.alert).toContainText(`${vertices} vertices, not 2`);
+  await pick('sizes.txt', '4\n'.repeat(vertices));
+  await app.generate.click();
+  await expect(app.status).toHaveText(/ quads? .*in .* s\.$/);
+  // The area is 2 pi 12 * 60.
+  const result = page.getByRole('region', { name: 'Result' });
+  const count = Number((await result.locator('.headline dd').first().innerText()).replaceAll(',', ''));
+  expect(Math.abs(count / 283 - 1)).toBeLessThan(0.25);
+  await page.getByRole('button', { name: 'Clear sizes file' }).click();
+  await expect(page.getByRole('button', { name: 'Clear sizes file' })).toBeHidden();
+  await app.mesh(600);
+});
+
 test('non-manifold edges and open boundaries are told apart', async ({ page }) => {
   await page.goto('./');
   const app = new App(page);

@@ -202,12 +202,53 @@ const wrongOptions = [
   { strokes: [{ from: [0, 0], to: [1, 0, 0] }] },
   { strokes: [{ from: [1, 0, 0], to: [1, 0, 0] }] },
   { sizes: 1 },
+  { sizes: [0.1, 0.2] },
+  { sizes: ['a'] },
+  { sizes: [0.1], quads: 100 },
+  { curvature: 0 },
+  { curvature: '1' },
+  { sises: [1] },
 ];
 for (const options of wrongOptions) {
   test(`the options ${JSON.stringify(options)} are refused`, async () => {
     await assert.rejects(mesher.mesh(sample('cylinder.obj'), options), withCode('invalidOption'));
   });
 }
+
+test('sizes at the vertices are those of the native program, from buffers, a file and an STL', async () => {
+  const file = sample('torus.obj');
+  const buffers = parseObj(file);
+  const sizes = Float64Array.from({ length: buffers.positions.length / 3 }, (_, v) => 2 + 0.05 * Math.abs(buffers.positions[3 * v]));
+  const [path, output] = ['sizes.txt', 'sizes.native.obj'].map(inProject);
+  writeFileSync(path, [...sizes].join('\n'));
+  const run = native('mesh', `${root}/samples/torus.obj`, '-o', output, '--sizing', path, '--quiet');
+  assert.equal(run.status, 0, run.stderr);
+  const fromFile = await mesher.mesh(file, { sizes: [...sizes] });
+  assert.ok(Buffer.from(await fromFile.file('obj')).equals(readFileSync(output)), 'the files differ');
+  assert.ok(fromFile.report.sizing.bySizes > 0);
+  const fromBuffers = await mesher.mesh(buffers, { sizes });
+  assert.deepEqual(fromBuffers.elements, fromFile.elements);
+
+  const facet = (...points) => `facet normal 0 0 1\nouter loop\n${points.map((p) => `vertex ${p} 0\n`).join('')}endloop\nendfacet\n`;
+  const stl = Buffer.from(`solid s\n${facet('0 0', '1 0', '1 1')}${facet('0 0', '1 1', '0 1')}endsolid s\n`);
+  const plate = await mesher.mesh(new Uint8Array(stl), { sizes: [0.1, 0.1, 0.1, 0.1] });
+  assert.equal(plate.report.quality.quads, 100);
+});
+
+test('a chord error makes the same smaller elements as in the native program', async () => {
+  const output = inProject('curvature.native.obj');
+  const options = ['--size', '8', '--curvature', '0.1', '--quiet'];
+  const run = native('mesh', `${root}/samples/capsule.obj`, '-o', output, ...options);
+  assert.equal(run.status, 0, run.stderr);
+  const [plain, fine] = [
+    await mesher.mesh(sample('capsule.obj'), { size: 8 }),
+    await mesher.mesh(sample('capsule.obj'), { size: 8, curvature: 0.1 }),
+  ];
+  assert.ok(Buffer.from(await fine.file('obj')).equals(readFileSync(output)), 'the files differ');
+  assert.ok(fine.report.sizing.byCurvature > 0);
+  assert.equal(plain.report.sizing.byCurvature, 0);
+  assert.ok(fine.report.quality.meanDistance < plain.report.quality.meanDistance / 2);
+});
 
 test('what is no model at all is refused', async () => {
   await assert.rejects(mesher.mesh({ positions: [0, 0, 0], triangles: [0, 0, 0] }), withCode('malformedInput'));

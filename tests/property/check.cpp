@@ -161,7 +161,9 @@ std::vector<std::string> runCase(const Case& made, Progress& progress, MeshResul
 std::string describe(const Case& made) {
   return made.name + ", " + std::to_string(made.part.triangles.size()) + " triangles, size " +
          std::to_string(*made.options.size) + ", " + std::string(modeName(made.options.mode)) +
-         (made.options.allQuad ? ", quadrilaterals only" : "");
+         (made.options.allQuad ? ", quadrilaterals only" : "") +
+         (made.options.curvature ? ", chord error " + std::to_string(*made.options.curvature) : "") +
+         (made.options.sizes.empty() ? "" : ", sizes at vertices");
 }
 
 }  // namespace qmcf::property

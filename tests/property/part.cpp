@@ -199,6 +199,13 @@ Case makeCase(std::uint64_t seed, const Limits& limits) {
   made.options.size = diagonalOf(made.part) * limits.smallest * pickLogarithmic(random, 1.0, limits.sizeRange);
   made.options.mode = pick(random, 0, 2) == 0 ? Mode::qmorph : Mode::qmcf;
   made.options.allQuad = pick(random, 0, 3) == 0;
+  const double size = *made.options.size;
+  if (pick(random, 0, 3) == 0) made.options.curvature = size * pickLogarithmic(random, 1e-3, 0.3);
+  if (pick(random, 0, 3) == 0) {
+    for (std::size_t v = 0; v < made.part.positions.size(); ++v) {
+      made.options.sizes.push_back(size * pickLogarithmic(random, 0.3, 3.0));
+    }
+  }
   return made;
 }
 

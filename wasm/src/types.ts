@@ -24,8 +24,24 @@ export interface Stroke {
 export interface MeshOptions {
   /** Element edge length in units of the model, greater than 0. Excludes {@link MeshOptions.quads}. */
   size?: number | undefined;
-  /** Number of elements to aim at, 1 to 10,000,000. Default 3000 if size is unset. */
+  /**
+   * Number of elements to aim at, 1 to 10,000,000. Excludes {@link MeshOptions.sizes}. Default 3000 if neither size nor
+   * sizes is set.
+   */
   quads?: number | undefined;
+  /**
+   * Largest element edge length at each vertex of the model, each greater than 0, linear in the triangles. The vertices
+   * are those of the buffers or of the file, in order; STL has none: there the different points stand for them, in the
+   * order of their first appearance. Without {@link MeshOptions.size} these are the sizes, with it the smaller of both
+   * is.
+   */
+  sizes?: Float64Array | Float32Array | readonly number[] | undefined;
+  /**
+   * Chord error in units of the model, greater than 0: how far the middle of an element's edge may be from a face where
+   * that is curved, and from a curved edge. Elements get no smaller by it than a tenth of the size. Default: unset,
+   * curved faces have no smaller elements than flat ones.
+   */
+  curvature?: number | undefined;
   /** Dihedral angle in degrees, between 0 and 180, from which an edge is sharp. Default 30. */
   featureAngle?: number | undefined;
   /** False: defects of the input are reported and left as they are. Default true. */
@@ -59,6 +75,8 @@ export interface MeshOptions {
 export const meshOptionNames = [
   'size',
   'quads',
+  'sizes',
+  'curvature',
   'featureAngle',
   'mode',
   'allQuad',
@@ -366,6 +384,16 @@ export interface SizeConformity {
   readonly withinSqrt2: number;
 }
 
+/** How many vertices of the repaired model have another size than the one everywhere, before it was graded, and why. */
+export interface SizeSources {
+  /** {@link MeshOptions.sizes} asked for it. */
+  readonly bySizes: number;
+  /** {@link MeshOptions.curvature} asked for it. */
+  readonly byCurvature: number;
+  /** Of the latter, those that would be smaller but are a tenth of the size. */
+  readonly floored: number;
+}
+
 /** Everything a person should know about a mesh. */
 export interface MeshReport {
   readonly size: number;
@@ -379,6 +407,7 @@ export interface MeshReport {
   readonly heldFaces: number;
   /** Nodes that the others moved along their edges by more than a tenth of the element size. */
   readonly slidNodes: number;
+  readonly sizing: SizeSources;
   /** The lengths of the mesh's edges in units of the target at their midpoints. */
   readonly sizeConformity: SizeConformity;
 }

@@ -1,5 +1,6 @@
 import { createMesher, QmcfError, type Mesher, type OutputFormat, type ProgressReport } from 'qmcf';
 import * as format from './format.js';
+import { parseSizes } from './sizes_file.js';
 import type { Sample } from './samples.js';
 import { stageLabel, TaskProgress } from './stages.js';
 import { fieldSettings, linkSizes, optionsKey, optionsOf, type Running, type Settings, type State, type Store, type View } from './state.js';
@@ -38,6 +39,23 @@ export class Session {
     const { settings, model } = this.store.state;
     const changed = { ...settings, ...change };
     this.store.update({ settings: model ? linkSizes(changed, model.area) : changed });
+  }
+
+  /** Takes the sizes at the part's vertices from a file, in place of size and count. */
+  async openSizes(file: File): Promise<void> {
+    try {
+      const sizes = parseSizes(file.name, await file.text());
+      this.changeSettings({ sizedBy: 'sizes', sizes });
+      const count = format.counted(sizes.values.length, 'size');
+      this.store.update({ message: undefined, status: `${file.name} holds ${count}.` });
+    } catch (error) {
+      this.fail(`${file.name} can't be used`, error);
+    }
+  }
+
+  clearSizes(): void {
+    const { sizedBy } = this.store.state.settings;
+    this.changeSettings({ sizes: undefined, sizedBy: sizedBy === 'sizes' ? 'quads' : sizedBy });
   }
 
   async generate(): Promise<void> {
@@ -85,7 +103,9 @@ export class Session {
       const { settings } = this.store.state;
       const part = await mesher.inspect(bytes, { featureAngle: settings.featureAngle }, control);
       const area = part.report.faces.reduce((sum, face) => sum + face.area, 0);
-      const sized = linkSizes({ ...settings, sizedBy: 'quads', quads: 3000 }, area);
+      // Lengths in units of another part mean nothing here.
+      const fresh = { sizedBy: 'quads', quads: 3000, sizes: undefined, curvature: undefined } as const;
+      const sized = linkSizes({ ...settings, ...fresh }, area);
       this.store.update({
         model: { name, bytes, part, area, featureAngle: settings.featureAngle },
         settings: sized,

@@ -1,4 +1,5 @@
 import type { FieldResult, InspectResult, MeshOptions, MeshResult, Mode } from 'qmcf';
+import type { SizesFile } from './sizes_file.js';
 
 /** What the viewport shows. */
 export type View = 'part' | 'field' | 'mesh' | 'front';
@@ -16,10 +17,14 @@ export interface Model {
 
 /** What the controls say. */
 export interface Settings {
-  /** Which of `size` and `quads` the user chose; the other one follows. */
-  readonly sizedBy: 'size' | 'quads';
+  /** Which of `size` and `quads` the user chose; the other one follows. Or neither, but the sizes of a file. */
+  readonly sizedBy: 'size' | 'quads' | 'sizes';
   readonly size: number;
   readonly quads: number;
+  /** The largest sizes at the vertices; never with a number of quads. */
+  readonly sizes: SizesFile | undefined;
+  /** Chord error in units of the model; undefined: whatever the size makes of it. */
+  readonly curvature: number | undefined;
   readonly featureAngle: number;
   readonly mode: Mode;
   readonly gradation: number;
@@ -102,6 +107,8 @@ export const initialState: State = {
     sizedBy: 'quads',
     size: 0,
     quads: 3000,
+    sizes: undefined,
+    curvature: undefined,
     featureAngle: 30,
     mode: 'qmcf',
     gradation: 0.2,
@@ -125,8 +132,11 @@ export const initialState: State = {
 
 /** The options for the core that follow from the controls. */
 export function optionsOf(settings: Settings): MeshOptions {
-  const { sizedBy, size, quads, ...rest } = settings;
-  return sizedBy === 'size' ? { ...rest, size } : { ...rest, quads };
+  const { sizedBy, size, quads, sizes, ...rest } = settings;
+  if (sizedBy === 'quads') {
+    return { ...rest, quads };
+  }
+  return { ...rest, ...(sizes && { sizes: sizes.values }), ...(sizedBy === 'size' && { size }) };
 }
 
 /** The same for the field, which is there in one mode only. */
@@ -136,11 +146,14 @@ export function fieldSettings(settings: Settings): Settings {
 
 /** Equal for settings that give equal results. */
 export function optionsKey(settings: Settings): string {
-  return JSON.stringify(optionsOf(settings));
+  return JSON.stringify({ ...optionsOf(settings), sizes: settings.sizes?.id });
 }
 
 /** The other of size and count follows from the area: a quad of size h covers h². */
 export function linkSizes(settings: Settings, area: number): Settings {
+  if (settings.sizedBy === 'sizes') {
+    return settings;
+  }
   return settings.sizedBy === 'size'
     ? { ...settings, quads: Math.max(1, Math.round(area / settings.size ** 2)) }
     : { ...settings, size: Math.sqrt(area / settings.quads) };

@@ -75,6 +75,7 @@ Result<double> baseSize(const TriangleMesh& mesh, const Brep& brep, const Sizing
     base = *std::max_element(graded.begin(), graded.end());
   }
   if (area / base / base > static_cast<double>(kMostQuads)) {
+    if (!options.size) return tooFine();
     return invalid("This element size would take more than 10,000,000 quads; choose a larger one.");
   }
   return base;

@@ -19,15 +19,24 @@ interface NumberFieldSettings {
   /** More about it, for a pointer that stays on it. */
   readonly hint?: string;
   readonly onChange: (value: number) => void;
+  /** What an empty field means; without it a number is needed. */
+  readonly onClear?: () => void;
+  /** Shown in an empty field. */
+  readonly placeholder?: string;
 }
 
 export function numberField(settings: NumberFieldSettings): NumberField {
-  const { label, unit, min, max, step = 'any', open = false, hint, onChange } = settings;
+  const { label, unit, min, max, step = 'any', open = false, hint, onChange, onClear, placeholder } = settings;
   const id = uniqueId();
-  const input = el('input', { id, type: 'number', inputmode: 'decimal', step, min, max });
+  const input = el('input', { id, type: 'number', inputmode: 'decimal', step, min, max, placeholder });
   const isValid = (value: number) => Number.isFinite(value) && (open ? value > min && value < max : value >= min && value <= max);
   input.addEventListener('input', () => {
     const value = input.valueAsNumber;
+    if (onClear && input.value === '' && !input.validity.badInput) {
+      input.removeAttribute('aria-invalid');
+      onClear();
+      return;
+    }
     input.toggleAttribute('aria-invalid', !isValid(value));
     if (isValid(value)) {
       onChange(value);
