@@ -21,11 +21,20 @@ constexpr double kUpright = 0.15;
 constexpr double kSquare = 0.15;
 constexpr double kClearlyUpright = 0.85;
 
+/// A triangle of the face near an element, if one is known.
+std::int32_t facetNear(const EditMesh& mesh, const std::array<HalfedgeId, 4>& sides) {
+  for (const HalfedgeId h : sides) {
+    if (h.valid() && mesh.vertex(mesh.origin(h)).facet != kNone) return mesh.vertex(mesh.origin(h)).facet;
+  }
+  return kNone;
+}
+
 }  // namespace
 
 Stand standOf(const EditMesh& mesh, const RelaxationTarget& target, FaceId f) {
   const auto sides = mesh.sides(f);
   const std::size_t corners = sides[3].valid() ? 4 : 3;
+  const std::int32_t facet = facetNear(mesh, sides);
   const auto p = [&](std::size_t i) -> const Vec3& { return mesh.position(mesh.origin(sides[i % corners])); };
   Vec3 centre;
   for (std::size_t i = 0; i < corners; ++i) centre += p(i) / static_cast<double>(corners);
@@ -40,12 +49,12 @@ Stand standOf(const EditMesh& mesh, const RelaxationTarget& target, FaceId f) {
     // Mostly the smooth normal at the corner tells enough.
     double upright = dot(normal, mesh.normal(mesh.origin(sides[i])));
     if (upright < kClearlyUpright) {
-      if (!belowCentre) belowCentre = target.face.normal(target.face.closest(centre).triangle);
+      if (!belowCentre) belowCentre = target.face.normal(target.face.closest(centre, facet).triangle);
       upright = dot(normal, *belowCentre);
     }
     if (upright < kUpright) {
       const Vec3 quarter = p(i) + (centre - p(i)) * 0.25;
-      upright = std::max(upright, dot(normal, target.face.normal(target.face.closest(quarter).triangle)));
+      upright = std::max(upright, dot(normal, target.face.normal(target.face.closest(quarter, facet).triangle)));
     }
     stand.penalty += std::max(0.0, kUpright - upright);
     const double lengths = norm(forward) * norm(backward);
@@ -57,7 +66,9 @@ Stand standOf(const EditMesh& mesh, const RelaxationTarget& target, FaceId f) {
   if (target.part == nullptr) return stand;
   std::array<Vec3, 4> places;
   for (std::size_t i = 0; i < corners; ++i) places[i] = p(i);
-  const double by = turnedOverBy(*target.part, places, corners, target.part->closest(centre));
+  const std::int32_t near = facet == kNone ? kNone : target.part->triangleOf[static_cast<std::size_t>(facet)];
+  const TriangleBvh& part = target.part->tree;
+  const double by = turnedOverBy(part, places, corners, part.closest(centre, near));
   stand.turnedOver = stand.turnedOver || by > 0.0;
   stand.penalty += by;
   return stand;

@@ -216,7 +216,8 @@ Result<SharedFace> subdivideFace(const TriangleMesh& mesh, const Brep& brep, con
   options.topology = false;
   options.quadsOnly = true;
   options.sizeScale = 0.5;
-  options.part = &part;
+  const WholePart whole{part, brep.faces[f].triangles};
+  options.part = &whole;
   SharedFace result = shareFace(face, prepared);
   std::vector<std::int32_t> node = std::move(result.node);
   node.resize(cut.mesh.positions.size(), kNone);
