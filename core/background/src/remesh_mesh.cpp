@@ -86,9 +86,19 @@ std::int32_t RemeshMesh::incomingBoundary(std::int32_t v) const {
 }
 
 bool RemeshMesh::areNeighbors(std::int32_t a, std::int32_t b) const {
-  bool found = false;
-  forEachNeighbor(a, [&](std::int32_t v) { found = found || v == b; });
-  return found;
+  // Around both at a time, until one is done: of the two, one often has few neighbours where the other is the hub of a
+  // long fan.
+  const auto touches = [this](std::int32_t h, std::int32_t v) { return target(h) == v || apex(h) == v; };
+  const std::int32_t firstOfA = outgoing(a);
+  const std::int32_t firstOfB = outgoing(b);
+  std::int32_t ofA = firstOfA;
+  std::int32_t ofB = firstOfB;
+  do {
+    if (touches(ofA, b) || touches(ofB, a)) return true;
+    ofA = twin(prev(ofA));
+    ofB = twin(prev(ofB));
+  } while (ofA != kNone && ofB != kNone && ofA != firstOfA && ofB != firstOfB);
+  return false;
 }
 
 std::int32_t RemeshMesh::addTriangle() {
@@ -188,6 +198,19 @@ void RemeshMesh::flip(std::int32_t h) {
   const Outer ca = outer(prev(h));
   const Outer ad = outer(next(g));
   const Outer db = outer(prev(g));
+  // A vertex on the boundary keeps the edge that leaves it there, in its new slot; others take any.
+  const auto leaving = [&](std::int32_t v, std::int32_t any) {
+    const std::int32_t e = outgoing(v);
+    if (twin(e) != kNone) return any;
+    if (e == next(h)) return prev(g);
+    if (e == prev(h)) return next(h);
+    if (e == next(g)) return prev(h);
+    return e == prev(g) ? next(g) : e;
+  };
+  const std::int32_t fromA = leaving(a, prev(h));
+  const std::int32_t fromB = leaving(b, prev(g));
+  const std::int32_t fromC = leaving(c, next(h));
+  const std::int32_t fromD = leaving(d, next(g));
   const auto place = [this](std::int32_t e, std::int32_t from, const Outer& beyond) {
     at(origin_, e) = from;
     at(twin_, e) = beyond.twin;
@@ -200,10 +223,10 @@ void RemeshMesh::flip(std::int32_t h) {
   place(prev(g), b, bc);
   at(origin_, h) = d;
   at(origin_, g) = c;
-  settle(a, prev(h));
-  settle(b, prev(g));
-  settle(c, next(h));
-  settle(d, next(g));
+  at(outgoing_, a) = fromA;
+  at(outgoing_, b) = fromB;
+  at(outgoing_, c) = fromC;
+  at(outgoing_, d) = fromD;
 }
 
 bool RemeshMesh::canCollapse(std::int32_t h, std::int32_t removed) {

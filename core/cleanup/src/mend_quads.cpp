@@ -1,6 +1,7 @@
 #include "mend_quads.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <optional>
 #include <utility>
@@ -39,49 +40,62 @@ class QuadMender {
 
   /// Makes the change that helps the quad most, if one does.
   bool mend(FaceId quad) {
-    std::vector<Change> changes;
-    const auto consider = [&](Change change) {
-      const std::size_t mark = mesh_.mark();
-      const Damage before = damageAround(mesh_, target_, change.vertices);
-      if (apply(change)) {
-        change.gained = gain(before, change.vertices);
-        changes.push_back(std::move(change));
-      }
-      mesh_.rollback(mark);
-    };
-    for (const HalfedgeId h : mesh_.sides(quad)) consider(closing(h));
+    changes_.clear();
+    for (const HalfedgeId h : mesh_.sides(quad)) {
+      const Change change = closing(h);
+      consider(change, damageAround(mesh_, target_, change.vertices));
+    }
     for (const std::vector<FaceId>& faces : cavitiesAround(quad)) {
       const auto loop = loopAround(faces);
       if (!loop) continue;
       Change change{faces, nullptr, {}, {}, {}};
       for (const HalfedgeId h : *loop) change.vertices.push_back(mesh_.origin(h));
+      const Damage before = damageAround(mesh_, target_, change.vertices);
       for (const LoopFilling& filling : loopFillings(static_cast<int>(loop->size()))) {
         change.filling = &filling;
-        consider(change);
+        consider(change, before);
       }
     }
-    std::stable_sort(changes.begin(), changes.end(), isBetter);
-    if (changes.size() > kTries) changes.resize(kTries);
-    return makeBest(changes);
+    return makeBest();
   }
 
  private:
+  /// Puts the change among those to be tried if it is one of the best so far. before: the damage around its vertices.
+  void consider(const Change& change, const Damage& before) {
+    const std::size_t mark = mesh_.mark();
+    if (apply(change)) {
+      Change candidate = change;
+      candidate.gained = gain(before, change.vertices, changes_.size() < kTries ? kAnyDamage : worthTrying(before));
+      changes_.insert(std::upper_bound(changes_.begin(), changes_.end(), candidate, isBetter), candidate);
+      if (changes_.size() > kTries) changes_.pop_back();
+    }
+    mesh_.rollback(mark);
+  }
+
+  /// What a change must leave less than to be better than the last of those to be tried, give or take round-off.
+  [[nodiscard]] Damage worthTrying(const Damage& before) const {
+    constexpr double kRoundOff = 1e-12;
+    const Damage& last = changes_.back().gained;
+    const double penalty = before.penalty + last.penalty;
+    return {before.turnedOver + last.turnedOver, penalty + kRoundOff * (before.penalty + std::fabs(last.penalty))};
+  }
+
   /// Tries the changes with the vertices moved, and makes the best of them if elements stand better then.
-  bool makeBest(std::vector<Change>& changes) {
-    for (Change& change : changes) change.vertices = withNeighbours(change.vertices);
+  bool makeBest() {
+    for (Change& change : changes_) change.vertices = withNeighbours(change.vertices);
     const auto make = [this](const Change& change) {
       if (!apply(change)) return false;
       settle(change.vertices);
       return true;
     };
-    for (Change& change : changes) {
+    for (Change& change : changes_) {
       const std::size_t mark = mesh_.mark();
       const Damage before = damageAround(mesh_, target_, change.vertices);
       if (make(change)) change.gained = gain(before, change.vertices);
       mesh_.rollback(mark);
     }
-    const auto best = std::min_element(changes.begin(), changes.end(), isBetter);
-    return best != changes.end() && isWorthwhile(best->gained) && make(*best);
+    const auto best = std::min_element(changes_.begin(), changes_.end(), isBetter);
+    return best != changes_.end() && isWorthwhile(best->gained) && make(*best);
   }
 
   [[nodiscard]] static bool isWorthwhile(const Damage& gained) {
@@ -98,8 +112,10 @@ class QuadMender {
     return all;
   }
 
-  [[nodiscard]] Damage gain(const Damage& before, const std::vector<VertexId>& vertices) const {
-    const Damage after = damageAround(mesh_, target_, vertices);
+  /// What there is more of than before; if there isn't less than `most`, it may be any less than the truth.
+  [[nodiscard]] Damage gain(const Damage& before, const std::vector<VertexId>& vertices,
+                            const Damage& most = kAnyDamage) const {
+    const Damage after = damageAround(mesh_, target_, vertices, most);
     return {after.turnedOver - before.turnedOver, after.penalty - before.penalty};
   }
 
@@ -178,14 +194,30 @@ class QuadMender {
     for (std::size_t v = vertexCount_; v < mesh_.vertexCapacity(); ++v) {
       if (mesh_.alive(VertexId(v))) moving.push_back(VertexId(v));
     }
+    // A vertex that found no better place finds none until something around it has moved.
+    std::vector<char> awake(moving.size(), 1);
+    const auto wake = [&](VertexId v) {
+      const auto place = std::lower_bound(moving.begin(), moving.end(), v);
+      if (place != moving.end() && *place == v) awake[static_cast<std::size_t>(place - moving.begin())] = 1;
+    };
     for (int sweep = 0; sweep < kSettleSweeps; ++sweep) {
-      for (const VertexId v : moving) (void)moveToBest(mesh_, target_, v);
+      for (std::size_t i = 0; i < moving.size(); ++i) {
+        if (awake[i] == 0) continue;
+        awake[i] = 0;
+        if (!moveToBest(mesh_, target_, moving[i])) continue;
+        mesh_.forEachOutgoing(moving[i], [&](HalfedgeId h) {
+          for (const HalfedgeId side : mesh_.sides(mesh_.face(h))) {
+            if (side.valid()) wake(mesh_.origin(side));
+          }
+        });
+      }
     }
   }
 
   EditMesh& mesh_;
   const RelaxationTarget& target_;
   Cavity cavity_;
+  std::vector<Change> changes_;  ///< To be tried, the best first.
   std::size_t vertexCount_ = mesh_.vertexCapacity();
 };
 

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "qmcf/cleanup/cleanup.hpp"
 #include "qmcf/mesh/edit_mesh.hpp"
 #include "qmcf/mesh/patch.hpp"
 #include "qmcf/spatial/triangle_bvh.hpp"
@@ -14,8 +15,8 @@ struct RelaxationTarget {
   const TriangleBvh& face;  ///< The face's input triangles.
   double sizeScale = 1.0;   ///< Element length in units of the patch's sizes.
   bool onPatch = false;     ///< Project on the patch's triangles instead: near, and cheaper, for what is only tried.
-  /// All triangles of the part, which elements are checked against in the end; nullptr: they are not checked here.
-  const TriangleBvh* part = nullptr;
+  /// What elements are checked against in the end; nullptr: they are not checked here.
+  const WholePart* part = nullptr;
 };
 
 /// The place on the face nearest to a position, with normal and location.

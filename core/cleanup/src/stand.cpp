@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <numeric>
 #include <optional>
 
 #include "qmcf/base/math.hpp"
@@ -21,64 +22,142 @@ constexpr double kUpright = 0.15;
 constexpr double kSquare = 0.15;
 constexpr double kClearlyUpright = 0.85;
 
+/// A triangle of the face near an element, if one is known.
+std::int32_t facetNear(const EditMesh& mesh, const std::array<HalfedgeId, 4>& sides) {
+  for (const HalfedgeId h : sides) {
+    if (h.valid() && mesh.vertex(mesh.origin(h)).facet != kNone) return mesh.vertex(mesh.origin(h)).facet;
+  }
+  return kNone;
+}
+
+/// An element and how it stands, found out step by step.
+class Standing {
+ public:
+  Standing(const EditMesh& mesh, FaceId f) : mesh_(mesh), sides_(mesh.sides(f)), corners_(sides_[3].valid() ? 4 : 3) {
+    for (std::size_t i = 0; i < corners_; ++i) places_[i] = mesh.position(mesh.origin(sides_[i]));
+    if (corners_ == 4) own_ = normalized(cross(places_[2] - places_[0], places_[3] - places_[1]));
+  }
+
+  /// By its shape alone.
+  [[nodiscard]] Stand shape() const {
+    Stand stand;
+    for (std::size_t i = 0; i < corners_; ++i) {
+      const double square = squareAt(i, areaAt(i));
+      stand.penalty += 2.0 * std::max(0.0, kSquare - square);
+      stand.turnedOver = stand.turnedOver || square <= 0.0;
+    }
+    return stand;
+  }
+
+  /// Once the penalty is known to be as high as `most`, the rest is left out.
+  [[nodiscard]] Stand on(const RelaxationTarget& target, double most) const {
+    Vec3 centre;
+    for (std::size_t i = 0; i < corners_; ++i) centre += places_[i] / static_cast<double>(corners_);
+    const std::int32_t facet = facetNear(mesh_, sides_);
+    std::optional<Vec3> belowCentre;
+    Stand stand;
+    for (std::size_t i = 0; i < corners_; ++i) {
+      const Vec3 area = areaAt(i);
+      const Vec3 normal = normalized(area);
+      // Mostly the smooth normal at the corner tells enough.
+      double upright = dot(normal, mesh_.normal(mesh_.origin(sides_[i])));
+      if (upright < kClearlyUpright) {
+        if (!belowCentre) belowCentre = target.face.normal(target.face.closest(centre, facet).triangle);
+        upright = dot(normal, *belowCentre);
+      }
+      if (upright < kUpright) {
+        const Vec3 quarter = places_[i] + (centre - places_[i]) * 0.25;
+        upright = std::max(upright, dot(normal, target.face.normal(target.face.closest(quarter, facet).triangle)));
+      }
+      stand.penalty += std::max(0.0, kUpright - upright);
+      const double square = squareAt(i, area);
+      stand.penalty += 2.0 * std::max(0.0, kSquare - square);
+      stand.turnedOver = stand.turnedOver || upright <= 0.0 || square <= 0.0;
+      if (stand.penalty >= most) return stand;
+    }
+    if (target.part == nullptr) return stand;
+    const std::int32_t near = facet == kNone ? kNone : target.part->triangleOf[static_cast<std::size_t>(facet)];
+    const TriangleBvh& part = target.part->tree;
+    const double by = turnedOverBy(part, places_, corners_, part.closest(centre, near));
+    stand.turnedOver = stand.turnedOver || by > 0.0;
+    stand.penalty += by;
+    return stand;
+  }
+
+ private:
+  [[nodiscard]] Vec3 forward(std::size_t i) const { return places_[(i + 1) % corners_] - places_[i]; }
+  [[nodiscard]] Vec3 backward(std::size_t i) const { return places_[(i + corners_ - 1) % corners_] - places_[i]; }
+  [[nodiscard]] Vec3 areaAt(std::size_t i) const { return cross(forward(i), backward(i)); }
+
+  [[nodiscard]] double squareAt(std::size_t i, const Vec3& area) const {
+    const double lengths = norm(forward(i)) * norm(backward(i));
+    return corners_ == 4 && lengths > 0.0 ? dot(area, own_) / lengths : norm(area) / std::max(lengths, 1e-300);
+  }
+
+  const EditMesh& mesh_;
+  std::array<HalfedgeId, 4> sides_;
+  std::size_t corners_;
+  std::array<Vec3, 4> places_;
+  Vec3 own_;  ///< The normal of a quadrilateral.
+};
+
 }  // namespace
 
-Stand standOf(const EditMesh& mesh, const RelaxationTarget& target, FaceId f) {
-  const auto sides = mesh.sides(f);
-  const std::size_t corners = sides[3].valid() ? 4 : 3;
-  const auto p = [&](std::size_t i) -> const Vec3& { return mesh.position(mesh.origin(sides[i % corners])); };
-  Vec3 centre;
-  for (std::size_t i = 0; i < corners; ++i) centre += p(i) / static_cast<double>(corners);
-  std::optional<Vec3> belowCentre;
-  const Vec3 own = corners == 4 ? normalized(cross(p(2) - p(0), p(3) - p(1))) : Vec3{};
-  Stand stand;
-  for (std::size_t i = 0; i < corners; ++i) {
-    const Vec3 forward = p(i + 1) - p(i);
-    const Vec3 backward = p(i + corners - 1) - p(i);
-    const Vec3 area = cross(forward, backward);
-    const Vec3 normal = normalized(area);
-    // Mostly the smooth normal at the corner tells enough.
-    double upright = dot(normal, mesh.normal(mesh.origin(sides[i])));
-    if (upright < kClearlyUpright) {
-      if (!belowCentre) belowCentre = target.face.normal(target.face.closest(centre).triangle);
-      upright = dot(normal, *belowCentre);
-    }
-    if (upright < kUpright) {
-      const Vec3 quarter = p(i) + (centre - p(i)) * 0.25;
-      upright = std::max(upright, dot(normal, target.face.normal(target.face.closest(quarter).triangle)));
-    }
-    stand.penalty += std::max(0.0, kUpright - upright);
-    const double lengths = norm(forward) * norm(backward);
-    const double square =
-        corners == 4 && lengths > 0.0 ? dot(area, own) / lengths : norm(area) / std::max(lengths, 1e-300);
-    stand.penalty += 2.0 * std::max(0.0, kSquare - square);
-    stand.turnedOver = stand.turnedOver || upright <= 0.0 || square <= 0.0;
-  }
-  if (target.part == nullptr) return stand;
-  std::array<Vec3, 4> places;
-  for (std::size_t i = 0; i < corners; ++i) places[i] = p(i);
-  const double by = turnedOverBy(*target.part, places, corners, target.part->closest(centre));
-  stand.turnedOver = stand.turnedOver || by > 0.0;
-  stand.penalty += by;
-  return stand;
+Stand shapeOf(const EditMesh& mesh, FaceId f) { return Standing(mesh, f).shape(); }
+
+Stand standOf(const EditMesh& mesh, const RelaxationTarget& target, FaceId f, double most) {
+  return Standing(mesh, f).on(target, most);
 }
 
 namespace {
 
-/// The penalty of all elements of a vertex; once it is known to be as high as `most`, the rest is left out.
-double penaltyAround(const EditMesh& mesh, const RelaxationTarget& target, VertexId v, double most) {
-  double sum = 0.0;
-  mesh.forEachOutgoing(v, [&](HalfedgeId h) {
-    if (sum < most) sum += standOf(mesh, target, mesh.face(h)).penalty;
-  });
-  return sum;
-}
+/// The penalties of a vertex's elements together, found out only as far as it takes to tell that they are too high.
+class PenaltyAround {
+ public:
+  PenaltyAround(const EditMesh& mesh, const RelaxationTarget& target, VertexId v) : mesh_(mesh), target_(target) {
+    mesh.forEachOutgoing(v, [&](HalfedgeId h) { faces_.push_back(mesh.face(h)); });
+    penalties_.resize(faces_.size());
+  }
+
+  /// Their sum if it is less than `most`.
+  std::optional<double> below(double most) {
+    // Far more than the round-off of sums in different orders.
+    constexpr double kSurely = 1.0 + 1e-12;
+    double least = 0.0;
+    for (std::size_t i = 0; i < faces_.size(); ++i) {
+      penalties_[i] = shapeOf(mesh_, faces_[i]).penalty;
+      least += penalties_[i];
+    }
+    if (least >= kSurely * most) return std::nullopt;
+    const std::size_t first = decisive_;
+    for (std::size_t n = 0; n < faces_.size(); ++n) {
+      const std::size_t i = (first + n) % faces_.size();
+      const double others = least - penalties_[i];
+      const double left = kSurely * most - others;
+      penalties_[i] = standOf(mesh_, target_, faces_[i], left).penalty;
+      least = others + penalties_[i];
+      if (penalties_[i] < left) continue;
+      decisive_ = i;
+      return std::nullopt;
+    }
+    const double sum = std::accumulate(penalties_.begin(), penalties_.end(), 0.0);
+    return sum < most ? std::optional(sum) : std::nullopt;
+  }
+
+ private:
+  const EditMesh& mesh_;
+  const RelaxationTarget& target_;
+  std::vector<FaceId> faces_;
+  std::vector<double> penalties_;
+  std::size_t decisive_ = 0;  ///< The element that was too much last: likely it will be again.
+};
 
 }  // namespace
 
 bool moveToBest(EditMesh& mesh, const RelaxationTarget& target, VertexId v) {
   constexpr double kWorthwhile = 0.98;
-  const double before = penaltyAround(mesh, target, v, HUGE_VAL);
+  PenaltyAround around(mesh, target, v);
+  const double before = around.below(HUGE_VAL).value_or(HUGE_VAL);
   if (!(before > 0.0)) return false;
   const EditMesh::Vertex start = mesh.vertex(v);
   const double size = target.sizeScale * interpolate(target.patch.surface, target.patch.size, start.location);
@@ -93,9 +172,9 @@ bool moveToBest(EditMesh& mesh, const RelaxationTarget& target, VertexId v) {
       const Vec3 aim = start.position + (x * turn.real() + y * turn.imag()) * (step * size);
       const EditMesh::Vertex moved = projectVertex(target, start, aim);
       mesh.setVertex(v, moved);
-      const double penalty = penaltyAround(mesh, target, v, least);
-      if (penalty >= least) continue;
-      least = penalty;
+      const auto penalty = around.below(least);
+      if (!penalty) continue;
+      least = *penalty;
       best = moved;
     }
   }
@@ -104,7 +183,8 @@ bool moveToBest(EditMesh& mesh, const RelaxationTarget& target, VertexId v) {
   return helps;
 }
 
-Damage damageAround(const EditMesh& mesh, const RelaxationTarget& target, const std::vector<VertexId>& vertices) {
+Damage damageAround(const EditMesh& mesh, const RelaxationTarget& target, const std::vector<VertexId>& vertices,
+                    const Damage& most) {
   std::vector<FaceId> faces;
   for (const VertexId v : vertices) {
     if (!mesh.alive(v)) continue;
@@ -112,11 +192,14 @@ Damage damageAround(const EditMesh& mesh, const RelaxationTarget& target, const 
   }
   std::sort(faces.begin(), faces.end());
   faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+  // Shapes are found out with much less work.
+  Damage byShape;
+  for (const FaceId f : faces) byShape += shapeOf(mesh, f);
+  if (!(byShape < most)) return byShape;
   Damage damage;
   for (const FaceId f : faces) {
-    const Stand stand = standOf(mesh, target, f);
-    damage.turnedOver += stand.turnedOver ? 1 : 0;
-    damage.penalty += stand.penalty;
+    damage += standOf(mesh, target, f);
+    if (!(damage < most)) break;
   }
   return damage;
 }

@@ -191,55 +191,61 @@ Result<MeshedFace> meshFace(const TriangleMesh& mesh, const Brep& brep, const Pr
 
 SharedFace shareFace(const MeshedFace& face, const PreparedFaces& prepared) {
   SharedFace shared{face.mesh, {}, face.report, face.trace};
+  const Patch& patch = prepared.patches[static_cast<std::size_t>(face.report.face)];
   for (const std::int32_t v : face.mesh.patchVertex) {
-    const Patch& patch = prepared.patches[static_cast<std::size_t>(face.report.face)];
     shared.node.push_back(v == kNone ? kNone : patch.node[VertexId(v)]);
   }
   return shared;
 }
 
-Result<SharedFace> subdivideFace(const TriangleMesh& mesh, const Brep& brep, const PreparedFaces& prepared,
-                                 const TriangleBvh& part, const MeshedFace& face, const SharedNodes& halved,
-                                 const std::optional<TraceScale>& scale, Progress& progress) {
+SharedFace shareCut(const CutFace& face, const PreparedFaces& prepared, const SharedNodes& halved) {
+  SharedFace shared{face.mesh, {}, face.report, face.trace};
+  const Patch& patch = prepared.patches[static_cast<std::size_t>(face.report.face)];
+  for (std::size_t v = 0; v < face.mesh.patchVertex.size(); ++v) {
+    const std::int32_t before = face.mesh.patchVertex[v];
+    const HalfedgeId half = face.halves[v];
+    const std::int32_t whole = before == kNone ? kNone : patch.node[VertexId(before)];
+    shared.node.push_back(half.valid() ? halvingNode(patch, half, prepared.divided, halved) : whole);
+  }
+  return shared;
+}
+
+Result<CutFace> cutFace(const TriangleMesh& mesh, const Brep& brep, const PreparedFaces& prepared,
+                        const TriangleBvh& part, const MeshedFace& face, const SharedNodes& halved,
+                        const std::optional<TraceScale>& scale, Progress& progress) {
   const auto f = static_cast<std::size_t>(face.report.face);
   const Patch& patch = prepared.patches[f];
   const TriangleBvh tree = faceTree(mesh, brep.faces[f]);
-  const auto nodeHalving = [&](HalfedgeId h) { return halvingNode(patch, h, prepared.divided, halved); };
   IdMap<HalfedgeId, Vec3> middle(patch.surface.halfedgeCount());
   for (const HalfedgeId h : IdRange<HalfedgeId>(patch.surface.halfedgeCount())) {
-    if (patch.surface.isBoundary(h)) middle[h] = halved.positions[static_cast<std::size_t>(nodeHalving(h))];
+    if (!patch.surface.isBoundary(h)) continue;
+    middle[h] = halved.positions[static_cast<std::size_t>(halvingNode(patch, h, prepared.divided, halved))];
   }
   const bool isGiven = prepared.given[f] != Given::nothing;
-  const SubdividedFace cut =
-      subdivide(face.mesh, patch, tree, middle, isGiven ? NewVertices::between : NewVertices::onFace);
-  CleanupOptions options;
-  options.topology = false;
-  options.quadsOnly = true;
-  options.sizeScale = 0.5;
-  options.part = &part;
-  SharedFace result = shareFace(face, prepared);
-  std::vector<std::int32_t> node = std::move(result.node);
-  node.resize(cut.mesh.positions.size(), kNone);
-  for (std::size_t v = 0; v < cut.boundaryEdge.size(); ++v) {
-    if (cut.boundaryEdge[v].valid()) node[v] = nodeHalving(cut.boundaryEdge[v]);
-  }
+  SubdividedFace cut = subdivide(face.mesh, patch, tree, middle, isGiven ? NewVertices::between : NewVertices::onFace);
+  CutFace result{{}, {}, face.report, face.trace};
   std::optional<TraceRecorder> recorder;
   if (scale) recorder.emplace(result.trace, *scale);
   TraceRecorder* const trace = recorder ? &*recorder : nullptr;
   if (isGiven) {
-    result.mesh = cut.mesh;
-    result.node = std::move(node);
+    result.mesh = std::move(cut.mesh);
+    result.halves = std::move(cut.boundaryEdge);
     if (trace != nullptr) {
       EditMesh work(result.mesh);
       trace->begin(TraceKind::subdivision, work);
     }
   } else {
+    CleanupOptions options;
+    options.topology = false;
+    options.quadsOnly = true;
+    options.sizeScale = 0.5;
+    const WholePart whole{part, brep.faces[f].triangles};
+    options.part = &whole;
     auto relaxed = cleanUp(cut.mesh, patch, tree, options, progress, trace, TraceKind::subdivision);
     if (!relaxed) return relaxed.error();
     result.mesh = std::move(relaxed.value().mesh);
-    result.node.clear();
     for (const std::int32_t v : relaxed.value().before) {
-      result.node.push_back(v == kNone ? kNone : node[static_cast<std::size_t>(v)]);
+      result.halves.push_back(v == kNone ? HalfedgeId() : cut.boundaryEdge[static_cast<std::size_t>(v)]);
     }
   }
   assert(ledgerCloses(result.mesh, mesh, brep, face.report.face));

@@ -11,12 +11,21 @@
 
 namespace qmcf {
 
+/// The mesh of a face with every element cut at the middles of its edges, so that only quadrilaterals are left.
+struct CutFace {
+  FaceMesh mesh;
+  std::vector<HalfedgeId> halves;  ///< Per vertex: the patch's boundary edge that it halves; invalid elsewhere.
+  FaceReport report;
+  FaceTrace trace;
+};
+
 /// One face meshed by the first step of the ladder that gives a valid mesh, and how.
 struct MeshedFace {
   FaceMesh mesh;
   FaceReport report;
   std::vector<SizeLimit> tooCoarse;  ///< Where the first step failed, with the size that may help.
   FaceTrace trace;                   ///< Its history, if that was asked for.
+  std::optional<CutFace> cut;        ///< What it was cut in, once it was.
 };
 
 /// Advancing front and clean-up; if the front got stuck or left an element that no solver takes, the paired triangles
@@ -37,11 +46,14 @@ struct SharedFace {
 /// The mesh of a face as it is. Node numbers are those of the last prepareFaces() or refineFaces().
 SharedFace shareFace(const MeshedFace& face, const PreparedFaces& prepared);
 
-/// The same with every element cut at the middles of its edges, so that only quadrilaterals are left, and relaxed.
-/// part: the tree over all its triangles; halved: the nodes of the boundary with those middles. The history goes on in
-/// `scale`, if given. Errors: cancelled.
-Result<SharedFace> subdivideFace(const TriangleMesh& mesh, const Brep& brep, const PreparedFaces& prepared,
-                                 const TriangleBvh& part, const MeshedFace& face, const SharedNodes& halved,
-                                 const std::optional<TraceScale>& scale, Progress& progress);
+/// The same of what the face was cut in. halved: the nodes of the boundary with the middles between them.
+SharedFace shareCut(const CutFace& face, const PreparedFaces& prepared, const SharedNodes& halved);
+
+/// Cuts every element of a face at the middles of its edges, and relaxes what that makes. part: the tree over all its
+/// triangles; halved: the nodes of the boundary with those middles, of which only the places matter. The history goes
+/// on in `scale`, if given. Errors: cancelled.
+Result<CutFace> cutFace(const TriangleMesh& mesh, const Brep& brep, const PreparedFaces& prepared,
+                        const TriangleBvh& part, const MeshedFace& face, const SharedNodes& halved,
+                        const std::optional<TraceScale>& scale, Progress& progress);
 
 }  // namespace qmcf

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <numeric>
 #include <optional>
 #include <string>
 #include <utility>
@@ -130,15 +129,15 @@ class MeshRun {
       prepared = std::move(refined).value();
     }
     if (!result_.quality.valid) {
-      if (const auto error = giveTriangles()) return *error;
+      if (const auto error = giveTriangles(std::move(prepared))) return *error;
     }
     return std::move(result_);
   }
 
  private:
   /// Where no size gave a valid mesh, the part's own triangles do, first in pairs, then as they are; whatever fails
-  /// around them follows.
-  std::optional<Error> giveTriangles() {
+  /// around them follows. last: what the present meshes of the faces were made of.
+  std::optional<Error> giveTriangles(PreparedFaces last) {
     // A fine scan of which a few elements are not valid is not replaced by itself.
     const std::size_t mostTriangles = kMostGiven + 2 * result_.mesh.elements.size();
     std::vector<Given> given(brep_.faces.size(), Given::nothing);
@@ -155,14 +154,16 @@ class MeshRun {
       if (!changed) break;
       auto prepared = prepareGiven(mesh_, brep_, options_, sizes_, given, progress_);
       if (!prepared) return prepared.error();
-      if (const auto error = meshChanged(prepared.value())) return error;
-      const auto separate = shareFaces(prepared.value());
+      keepUnchanged(last, prepared.value());
+      last = std::move(prepared).value();
+      if (const auto error = meshChanged(last)) return error;
+      const auto separate = shareFaces(last);
       if (!separate) return separate.error();
-      auto made = join(prepared.value(), separate.value(), std::vector<char>(faces_.size(), 1));
+      auto made = join(last, separate.value(), std::vector<char>(faces_.size(), 1));
       if (!made) return made.error();
       atFault = facesAtFault(made.value().mesh, made.value().quality, brep_);
       if (countFaults(made.value().quality) < countFaults(result_.quality)) {
-        if (const auto error = keep(std::move(made).value(), prepared.value())) return error;
+        if (const auto error = keep(std::move(made).value(), last)) return error;
       }
       if (result_.quality.valid) break;
     }
@@ -273,16 +274,18 @@ class MeshRun {
     });
   }
 
-  std::optional<Error> subdivideAll(const PreparedFaces& prepared, const SharedNodes& shared,
-                                    std::vector<SharedFace>& faces) {
+  /// Cuts up the faces that were meshed since it was called last.
+  std::optional<Error> cutMeshed(const PreparedFaces& prepared, const SharedNodes& halved) {
+    std::vector<std::int32_t> uncut;
+    for (std::size_t f = 0; f < faces_.size(); ++f) {
+      if (!faces_[f].cut) uncut.push_back(static_cast<std::int32_t>(f));
+    }
     const TriangleBvh part(mesh_.positions, mesh_.triangles);
-    std::vector<std::int32_t> all(faces.size());
-    std::iota(all.begin(), all.end(), 0);
-    return forEachFace(prepared, all, [&](std::int32_t face, Progress& progress) -> std::optional<Error> {
-      const auto f = static_cast<std::size_t>(face);
-      auto cut = subdivideFace(mesh_, brep_, prepared, part, faces_[f], shared, scale_, progress);
+    return forEachFace(prepared, uncut, [&](std::int32_t face, Progress& progress) -> std::optional<Error> {
+      MeshedFace& meshed = faces_[static_cast<std::size_t>(face)];
+      auto cut = cutFace(mesh_, brep_, prepared, part, meshed, halved, scale_, progress);
       if (!cut) return cut.error();
-      faces[f] = std::move(cut).value();
+      meshed.cut = std::move(cut).value();
       return std::nullopt;
     });
   }
@@ -311,9 +314,11 @@ class MeshRun {
   Result<SeparateFaces> shareFaces(const PreparedFaces& prepared) {
     SeparateFaces separate;
     separate.nodes = options_.allQuad ? halvedNodes(mesh_, brep_, prepared.divided) : sharedNodes(prepared.divided);
-    for (const MeshedFace& face : faces_) separate.faces.push_back(shareFace(face, prepared));
     if (options_.allQuad) {
-      if (const auto error = subdivideAll(prepared, separate.nodes, separate.faces)) return *error;
+      if (const auto error = cutMeshed(prepared, separate.nodes)) return *error;
+    }
+    for (const MeshedFace& face : faces_) {
+      separate.faces.push_back(face.cut ? shareCut(*face.cut, prepared, separate.nodes) : shareFace(face, prepared));
     }
     return separate;
   }

@@ -58,6 +58,11 @@ void useSizes(SizingOptions& sizing, const PreparedSizes& sizes) {
   sizing.chordSize = sizes.chordSize;
 }
 
+bool isSamePatch(const Patch& a, const Patch& b) {
+  return a.surface == b.surface && a.normal == b.normal && a.size == b.size && a.cornerQuads == b.cornerQuads &&
+         a.edge == b.edge;
+}
+
 /// The stages up to the cross fields, as often as the faces ask for smaller elements.
 class Preparation {
  public:
@@ -290,6 +295,13 @@ Result<PreparedFaces> prepareGiven(const TriangleMesh& mesh, const Brep& brep, c
   preparation.keepSizes(before);
   preparation.give(given);
   return preparation.run({});
+}
+
+void keepUnchanged(const PreparedFaces& before, PreparedFaces& now) {
+  std::erase_if(now.changed, [&](std::int32_t face) {
+    const auto f = static_cast<std::size_t>(face);
+    return before.given[f] == now.given[f] && isSamePatch(before.patches[f], now.patches[f]);
+  });
 }
 
 Result<SizeField> sizeField(const TriangleMesh& mesh, const Brep& brep, const MeshOptions& options,

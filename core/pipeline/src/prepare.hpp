@@ -51,6 +51,10 @@ Result<PreparedFaces> refineFaces(const TriangleMesh& mesh, const Brep& brep, co
 Result<PreparedFaces> prepareGiven(const TriangleMesh& mesh, const Brep& brep, const MeshOptions& options,
                                    const PreparedSizes& before, const std::vector<Given>& given, Progress& progress);
 
+/// Takes the faces out of now.changed that are what they were in `before`, apart from the numbers of the shared nodes:
+/// their meshes would be, too.
+void keepUnchanged(const PreparedFaces& before, PreparedFaces& now);
+
 /// The size field with these sizes. Errors: cancelled.
 Result<SizeField> sizeField(const TriangleMesh& mesh, const Brep& brep, const MeshOptions& options,
                             const PreparedSizes& sizes, Progress& progress);

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "face_uses.hpp"
+#include "qmcf/base/math.hpp"
 
 namespace qmcf {
 namespace {
@@ -224,7 +225,7 @@ double departure(const EdgeCount& edge, std::int32_t count) {
   constexpr double kStretch = 4.0;
   constexpr double kLeastWanted = 0.5;
   const double wanted = std::max(edge.wanted, kLeastWanted);
-  const double stretch = std::log(count / wanted);
+  const double stretch = math::log(count / wanted);
   return kStretch * wanted * stretch * stretch;
 }
 
@@ -256,6 +257,8 @@ class Balance {
       }
     }
     label_.resize(2 * edges_.size());
+    cost_.resize(2 * edges_.size());
+    for (std::size_t e = 0; e < edges_.size(); ++e) price(static_cast<std::int32_t>(e));
   }
 
   void run() {
@@ -297,9 +300,14 @@ class Balance {
     return change.by > 0 || edge.count > edge.least;
   }
 
-  [[nodiscard]] double costOf(const Change& change) const {
-    const EdgeCount& edge = edges_[at(change.edge)];
-    return departure(edge, edge.count + change.by) - departure(edge, edge.count);
+  [[nodiscard]] double costOf(const Change& change) const { return cost_[change.id()]; }
+
+  /// Finds out what the changes of an edge cost now.
+  void price(std::int32_t edge) {
+    const EdgeCount& now = edges_[at(edge)];
+    for (const Change change : {Change{edge, -1}, Change{edge, 1}}) {
+      if (allowed(change)) cost_[change.id()] = departure(now, now.count + change.by) - departure(now, now.count);
+    }
   }
 
   /// What two changes do to the mismatch of a face.
@@ -347,6 +355,7 @@ class Balance {
     }
     for (const Change& change : bestWalk) {
       edges_[at(change.edge)].count += change.by;
+      price(change.edge);
       for (const Term& term : terms_[at(change.edge)]) value_[term.row] += term.factor * change.by;
     }
     return !bestWalk.empty();
@@ -415,6 +424,7 @@ class Balance {
   std::vector<std::vector<std::int32_t>> changing_;  ///< Per face, and beyond the open edges: edges that may change.
   std::int32_t ground_ = 0;                          ///< Stands for a face beyond the open edges.
   std::vector<Label> label_;                         ///< Per change.
+  std::vector<double> cost_;                         ///< Per change that is allowed.
   std::int64_t budget_ = 50'000'000;
 };
 

@@ -2,6 +2,7 @@
 #include "qmcf/spatial/triangle_bvh.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <utility>
@@ -10,6 +11,10 @@ namespace qmcf {
 namespace {
 
 constexpr std::int32_t kLeafSize = 4;
+constexpr std::size_t kMostOpen = 128;  // Above all levels: no child has more than 3/4 of at most 2^31 triangles.
+/// A triangle with less than this sine at its first corner may have a normal of larger error.
+constexpr double kLeastSine = 1e-4;
+constexpr double kPlaneError = 1e-10;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 double gap(double p, double low, double high) { return p < low ? low - p : (p > high ? p - high : 0.0); }
@@ -168,10 +173,14 @@ TriangleBvh::TriangleBvh(const std::vector<Vec3>& positions,
   }
   triangles_.reserve(order_.size());
   normals_.reserve(order_.size());
+  planes_.reserve(order_.size());
   for (const std::int32_t t : order_) {
     const auto [a, b, c] = corners(t);
     triangles_.push_back({a, b, c});
-    normals_.push_back(normalized(cross(b - a, c - a)));
+    const Vec3 area = cross(b - a, c - a);
+    normals_.push_back(normalized(area));
+    const bool isExact = norm(area) > kLeastSine * distance(a, b) * distance(a, c);
+    planes_.push_back(isExact ? normals_.back() : Vec3{});
   }
   fitBoxes();
 }
@@ -196,7 +205,16 @@ void TriangleBvh::fitBoxes() {
     }
   }
   constexpr double kRoundOff = 1e-14;  // Of the coordinates.
-  onSurface_ = kRoundOff * kRoundOff * std::max(squaredNorm(nodes_[0].low), squaredNorm(nodes_[0].high));
+  roundOff_ = kRoundOff * std::sqrt(std::max(squaredNorm(nodes_[0].low), squaredNorm(nodes_[0].high)));
+}
+
+/// Whether a triangle's plane, and so the triangle, is farther away than that, whatever round-off says: much less work
+/// than the triangle's closest point, and on a surface that bends little it leaves out nearly all whose boxes overlap.
+bool TriangleBvh::isPlaneBeyond(std::size_t index, const Vec3& query, double squaredDistance) const {
+  const Vec3 arm = query - triangles_[index][0];
+  const double error = kPlaneError * (std::fabs(arm.x) + std::fabs(arm.y) + std::fabs(arm.z)) + roundOff_;
+  const double height = std::fabs(dot(planes_[index], arm)) - error;
+  return height > 0.0 && height * height > squaredDistance;
 }
 
 /// most: squared distance beyond which nothing is looked for.
@@ -213,10 +231,10 @@ ClosestPoint TriangleBvh::search(const Vec3& query, std::int32_t hint, double mo
     if (accept(index)) {
       best = closestOn(query, triangles_[index]);
       best.triangle = hint;
-      if (best.squaredDistance <= onSurface_) return best;
+      if (best.squaredDistance <= roundOff_ * roundOff_) return best;
     }
   }
-  std::array<Entry, 128> stack;  // One entry a level; no child has more than three quarters of at most 2^31 triangles.
+  std::array<Entry, kMostOpen> stack;  // One entry a level.
   std::size_t top = 0;
   stack[top++] = {0, 0.0};
   while (top > 0) {
@@ -239,6 +257,7 @@ ClosestPoint TriangleBvh::search(const Vec3& query, std::int32_t hint, double mo
     for (std::int32_t i = node->first; i < node->first + node->count; ++i) {
       const auto index = static_cast<std::size_t>(i);
       if (squaredDistanceToBox(query, triangles_[index]) > best.squaredDistance || !accept(index)) continue;
+      if (isPlaneBeyond(index, query, best.squaredDistance)) continue;
       const ClosestPoint candidate = closestOn(query, triangles_[index]);
       const bool closer = candidate.squaredDistance < best.squaredDistance;
       const bool tie = candidate.squaredDistance == best.squaredDistance && order_[index] < best.triangle;
@@ -268,19 +287,20 @@ ClosestPoint TriangleBvh::closestFacing(const Vec3& normal, const Vec3& query, d
 bool TriangleBvh::isAnyFacing(const Vec3& normal, const Vec3& query, double reach) const {
   if (empty()) return false;
   const double most = reach * reach;
-  std::vector<std::int32_t> open{0};
-  while (!open.empty()) {
-    const Node& node = nodes_[static_cast<std::size_t>(open.back())];
-    open.pop_back();
+  std::array<std::int32_t, kMostOpen> open;  // One entry a level, and the node itself.
+  std::size_t top = 0;
+  open[top++] = 0;
+  while (top > 0) {
+    const Node& node = nodes_[static_cast<std::size_t>(open[--top])];
     if (squaredDistanceToBox(query, node.low, node.high) > most) continue;
     if (node.count == 0) {
-      open.push_back(node.first);
-      open.push_back(node.first + 1);
+      open[top++] = node.first;
+      open[top++] = node.first + 1;
     }
     for (std::int32_t i = node.first; i < node.first + node.count; ++i) {
       const auto index = static_cast<std::size_t>(i);
-      if (dot(normals_[index], normal) > 0.0 && closestOn(query, triangles_[index]).squaredDistance <= most)
-        return true;
+      if (!(dot(normals_[index], normal) > 0.0) || isPlaneBeyond(index, query, most)) continue;
+      if (closestOn(query, triangles_[index]).squaredDistance <= most) return true;
     }
   }
   return false;

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
 #include "cleanup/grid_mesh.hpp"
@@ -232,6 +233,23 @@ TEST(CleanUp, MendsQuadrilateralsWithoutTriangles) {
     EXPECT_EQ(mesh.positions[was], result.mesh.positions[v]);
   }
   EXPECT_EQ(boundary, 24U);
+}
+
+TEST(CleanUp, MendsTheSameWherePartAndFaceAreOne) {
+  const Patch patch = testing::makeSquare(6);
+  const TriangleBvh tree = surfaceTree(patch.surface);
+  const FaceMesh mesh = gridWithDoublet(patch);
+  CleanupOptions options;
+  options.topology = false;
+  options.quadsOnly = true;
+  const CleanupResult alone = clean(mesh, patch, options);
+  std::vector<std::int32_t> triangleOf(patch.surface.triangleCount());
+  std::iota(triangleOf.begin(), triangleOf.end(), 0);
+  const WholePart whole{tree, triangleOf};
+  options.part = &whole;
+  const CleanupResult checked = clean(mesh, patch, options);
+  EXPECT_EQ(checked.mesh.elements, alone.mesh.elements);
+  EXPECT_EQ(checked.mesh.positions, alone.mesh.positions);
 }
 
 TEST(CleanUp, KeepsThinHandles) {

@@ -91,6 +91,49 @@ TEST(TriangleBvh, FindsTheSameAsTryingAllTriangles) {
   }
 }
 
+/// Thin triangles of every size far from the origin, where round-off is large and the normals of many are nearly noise.
+Soup slivers(std::uint64_t seed, std::int32_t count) {
+  Random random(seed);
+  Soup soup;
+  for (std::int32_t t = 0; t < count; ++t) {
+    const Vec3 first = Vec3{1000.0, -500.0, 0.0} + randomPoint(random, 1.0);
+    const Vec3 along = randomPoint(random, 0.5);
+    const double thickness = std::pow(10.0, random.uniform(-12.0, -1.0));
+    soup.positions.push_back(first);
+    soup.positions.push_back(first + along);
+    soup.positions.push_back(first + along * random.uniform(0.0, 1.0) + randomPoint(random, thickness));
+    soup.triangles.push_back({3 * t, 3 * t + 1, 3 * t + 2});
+  }
+  return soup;
+}
+
+TEST(TriangleBvh, LeavesOutNoSliver) {
+  const Soup soup = slivers(31, 400);
+  const TriangleBvh bvh(soup.positions, soup.triangles);
+  Random random(32);
+  for (int i = 0; i < 400; ++i) {
+    // Every other query lies on a triangle or next to it.
+    const auto& on = soup.triangles[static_cast<std::size_t>(i)];
+    const double step = i % 4 == 0 ? 0.0 : 1e-9;
+    const Vec3 inside =
+        (soup.positions[static_cast<std::size_t>(on[0])] + soup.positions[static_cast<std::size_t>(on[1])]) * 0.5;
+    const Vec3 away{1000.0, -500.0, 0.0};
+    const Vec3 query = i % 2 == 0 ? inside + randomPoint(random, 1.0) * step : away + randomPoint(random, 1.5);
+    ClosestPoint best;
+    best.squaredDistance = 1e300;
+    for (std::size_t t = 0; t < soup.triangles.size(); ++t) {
+      const auto corner = [&](std::size_t c) { return soup.positions[static_cast<std::size_t>(soup.triangles[t][c])]; };
+      const ClosestPoint closest = closestPointOnTriangle(query, corner(0), corner(1), corner(2));
+      if (closest.squaredDistance >= best.squaredDistance) continue;
+      best = closest;
+      best.triangle = static_cast<std::int32_t>(t);
+    }
+    const ClosestPoint found = bvh.closest(query);
+    EXPECT_EQ(found.triangle, best.triangle);
+    EXPECT_EQ(found.squaredDistance, best.squaredDistance);
+  }
+}
+
 TEST(TriangleBvh, TiesGoToTheSmallestTriangle) {
   // Twenty triangles around one common corner; the query is nearest to that corner of all.
   Soup soup;

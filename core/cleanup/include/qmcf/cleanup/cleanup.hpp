@@ -12,6 +12,12 @@
 
 namespace qmcf {
 
+/// The part that a face belongs to.
+struct WholePart {
+  const TriangleBvh& tree;                      ///< Over all its triangles.
+  const std::vector<std::int32_t>& triangleOf;  ///< Per triangle of the face: which of the part's it is.
+};
+
 /// Improvement of the mesh of one face.
 struct CleanupOptions {
   bool quadsOnly = false;    ///< Make no triangle where there was none.
@@ -20,9 +26,9 @@ struct CleanupOptions {
   std::int32_t rounds = 6;   ///< Rounds of topological operators and relaxation, 0 to 50.
   std::int32_t sweeps = 25;  ///< Relaxation sweeps over all vertices at the end, 0 to 200.
   double leastShape = 0.2;   ///< No operator may leave an element with a smaller scaled Jacobian, in (0, 1).
-  /// The tree over all triangles of the part: elements that the check against it would find turned over are mended.
-  /// nullptr: it is left to the check to find them.
-  const TriangleBvh* part = nullptr;
+  /// Elements that the check against the part would find turned over are mended. nullptr: it is left to the check to
+  /// find them.
+  const WholePart* part = nullptr;
 };
 
 /// What was done.

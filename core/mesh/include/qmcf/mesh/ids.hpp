@@ -44,6 +44,7 @@ class IdMap {
   [[nodiscard]] Key end() const { return Key(data_.size()); }
   std::vector<T>& raw() { return data_; }
   const std::vector<T>& raw() const { return data_; }
+  friend bool operator==(const IdMap& a, const IdMap& b) = default;
 
  private:
   std::vector<T> data_;

@@ -79,6 +79,8 @@ class Surface {
   /// First half-edge of every boundary loop, by smallest half-edge.
   [[nodiscard]] std::vector<HalfedgeId> boundaryLoops() const;
 
+  friend bool operator==(const Surface& a, const Surface& b) = default;
+
  private:
   IdMap<VertexId, Vec3> position_;
   IdMap<VertexId, HalfedgeId> outgoing_;

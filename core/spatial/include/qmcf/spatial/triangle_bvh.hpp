@@ -60,15 +60,18 @@ class TriangleBvh {
   void makeNodes(std::vector<Item>& items);
   void fitBoxes();
 
+  [[nodiscard]] bool isPlaneBeyond(std::size_t index, const Vec3& query, double squaredDistance) const;
+
   template <class Accept>
   ClosestPoint search(const Vec3& query, std::int32_t hint, double most, Accept accept) const;
 
   std::vector<Node> nodes_;
-  double onSurface_ = 0.0;                      ///< Squared distance that is no more than round-off.
+  double roundOff_ = 0.0;                       ///< Distance that is no more than round-off.
   std::vector<std::int32_t> order_;             ///< Triangle ids, leaf by leaf.
   std::vector<std::int32_t> place_;             ///< Per triangle: its entry in order_.
   std::vector<std::array<Vec3, 3>> triangles_;  ///< Corners in the order of order_.
   std::vector<Vec3> normals_;                   ///< Unit normals in the order of order_.
+  std::vector<Vec3> planes_;                    ///< The same where they are exact to kPlaneError, elsewhere zero.
 };
 
 }  // namespace qmcf
