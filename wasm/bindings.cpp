@@ -188,12 +188,13 @@ std::optional<Error> assign(std::vector<FieldStroke>& option, std::string_view n
 /// Calls visit(name, field) for every option. The structured binding fails to compile when MeshOptions gains a field.
 template <class Visit>
 void forEachOption(MeshOptions& options, Visit visit) {
-  auto& [size, quads, sizes, curvature, featureAngle, mode, allQuad, repair, gradation, alignBoundary, alignSharp,
-         alignNonManifold, alignCurvature, strokes, threads, trace] = options;
+  auto& [size, quads, sizes, curvature, fitSizes, featureAngle, mode, allQuad, repair, gradation, alignBoundary,
+         alignSharp, alignNonManifold, alignCurvature, strokes, threads, trace] = options;
   visit("size", size);
   visit("quads", quads);
   visit("sizes", sizes);
   visit("curvature", curvature);
+  visit("fitSizes", fitSizes);
   visit("featureAngle", featureAngle);
   visit("mode", mode);
   visit("allQuad", allQuad);

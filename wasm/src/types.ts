@@ -42,6 +42,12 @@ export interface MeshOptions {
    * curved faces have no smaller elements than flat ones.
    */
   curvature?: number | undefined;
+  /**
+   * Let the size vary, within a factor of 1.5, to fit the cross field, if that makes better elements: fewer of their rows
+   * end inside faces. The number of elements and the mean size are kept; it takes about twice as long. Needs mode `qmcf`,
+   * and `size` where there are `sizes`. Default false.
+   */
+  fitSizes?: boolean | undefined;
   /** Dihedral angle in degrees, between 0 and 180, from which an edge is sharp. Default 30. */
   featureAngle?: number | undefined;
   /** False: defects of the input are reported and left as they are. Default true. */
@@ -77,6 +83,7 @@ export const meshOptionNames = [
   'quads',
   'sizes',
   'curvature',
+  'fitSizes',
   'featureAngle',
   'mode',
   'allQuad',
@@ -407,6 +414,8 @@ export interface MeshReport {
   readonly heldFaces: number;
   /** Nodes that the others moved along their edges by more than a tenth of the element size. */
   readonly slidNodes: number;
+  /** Whether the sizes vary to fit the field: {@link MeshOptions.fitSizes}, where that made better elements. */
+  readonly fittedSizes: boolean;
   readonly sizing: SizeSources;
   /** The lengths of the mesh's edges in units of the target at their midpoints. */
   readonly sizeConformity: SizeConformity;

@@ -25,6 +25,8 @@ export interface Settings {
   readonly sizes: SizesFile | undefined;
   /** Chord error in units of the model; undefined: whatever the size makes of it. */
   readonly curvature: number | undefined;
+  /** Let sizes vary to fit the field; without effect in the mode that has none, and with the sizes of a file. */
+  readonly fitSizes: boolean;
   readonly featureAngle: number;
   readonly mode: Mode;
   readonly gradation: number;
@@ -109,6 +111,7 @@ export const initialState: State = {
     quads: 3000,
     sizes: undefined,
     curvature: undefined,
+    fitSizes: false,
     featureAngle: 30,
     mode: 'qmcf',
     gradation: 0.2,
@@ -132,7 +135,8 @@ export const initialState: State = {
 
 /** The options for the core that follow from the controls. */
 export function optionsOf(settings: Settings): MeshOptions {
-  const { sizedBy, size, quads, sizes, ...rest } = settings;
+  const { sizedBy, size, quads, sizes, fitSizes, ...others } = settings;
+  const rest = { ...others, fitSizes: fitSizes && settings.mode === 'qmcf' && sizedBy !== 'sizes' };
   if (sizedBy === 'quads') {
     return { ...rest, quads };
   }

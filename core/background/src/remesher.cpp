@@ -55,7 +55,13 @@ bool looksAlong(const Vec3& area, const Vec3& normal) {
 void grade(const RemeshMesh& mesh, std::vector<double>& value, double highest, double slope) {
   MinHeap heap;
   for (std::int32_t v = 0; v < mesh.vertexCount(); ++v) {
-    if (value[index(v)] < highest && !mesh.isVertexRemoved(v)) heap.push(value[index(v)], v);
+    if (!(value[index(v)] < highest) || mesh.isVertexRemoved(v)) continue;
+    // Most of them lower nothing around them, unless they get lower themselves.
+    bool lowers = false;
+    mesh.forEachNeighbor(v, [&](std::int32_t w) {
+      lowers = lowers || value[index(v)] + slope * distance(mesh.positionOf(v), mesh.positionOf(w)) < value[index(w)];
+    });
+    if (lowers) heap.push(value[index(v)], v);
   }
   while (!heap.empty()) {
     const auto [key, v] = heap.pop();
@@ -86,7 +92,7 @@ std::vector<std::int32_t> Remesher::renumber() {
   apply(targets_.spacing);
   apply(awake_);
   apply(moved_);
-  place_.clear();
+  inner_.clear();
   return newVertex;
 }
 
@@ -115,12 +121,15 @@ void Remesher::applyLimits() {
 /// Lowers the sizes at vertices to those inside the face.
 void Remesher::applyInner() {
   if (targets_.inner.empty()) return;
-  place_.resize(index(mesh_.vertexCount()), kNone);
+  inner_.resize(index(mesh_.vertexCount()));
   for (std::int32_t v = 0; v < mesh_.vertexCount(); ++v) {
     if (mesh_.isVertexRemoved(v)) continue;
-    const FaceSizes::Found found = targets_.inner.at(mesh_.positionOf(v), place_[index(v)]);
-    place_[index(v)] = found.triangle;
-    size_[index(v)] = std::min(size_[index(v)], found.size);
+    Inner& inner = inner_[index(v)];
+    const Vec3& p = mesh_.positionOf(v);
+    if (inner.found.triangle == kNone || inner.position != p) {
+      inner = {p, targets_.inner.at(p, inner.found.triangle)};
+    }
+    size_[index(v)] = std::min(size_[index(v)], inner.found.size);
   }
 }
 

@@ -62,6 +62,12 @@ class Remesher {
   [[nodiscard]] const std::vector<double>& size() const { return size_; }
 
  private:
+  /// What was last found in targets_.inner, and where.
+  struct Inner {
+    Vec3 position;
+    FaceSizes::Found found;
+  };
+
   void applyLimits();
   void applyInner();
   void shortenWhereCurved();
@@ -83,11 +89,11 @@ class Remesher {
   RemeshMesh& mesh_;
   const FaceReference& reference_;
   RemeshTargets targets_;
-  std::vector<double> size_;         ///< Per vertex: target size of the quad mesh.
-  std::vector<double> length_;       ///< Per vertex: target length of triangle edges.
-  std::vector<std::int32_t> place_;  ///< Per vertex: triangle of targets_.inner that it was on last.
-  std::vector<char> awake_;          ///< Per vertex: something near it has changed since it was smoothed.
-  std::vector<char> moved_;          ///< Per vertex: it has moved since it was projected.
+  std::vector<double> size_;    ///< Per vertex: target size of the quad mesh.
+  std::vector<double> length_;  ///< Per vertex: target length of triangle edges.
+  std::vector<Inner> inner_;    ///< Per vertex.
+  std::vector<char> awake_;     ///< Per vertex: something near it has changed since it was smoothed.
+  std::vector<char> moved_;     ///< Per vertex: it has moved since it was projected.
 };
 
 }  // namespace qmcf

@@ -63,6 +63,9 @@ void addMesh(CLI::App& app, MeshCommand& command) {
       ->type_name("OUT")
       ->required();
   addFieldOptions(app, command.options, command.constraints, command.sizing);
+  app.add_flag("--fit-sizes", command.options.fitSizes,
+               "Let sizes vary by up to 1.5 to fit the cross field, if that makes better elements\n"
+               "(takes about twice as long)");
   const std::map<std::string, Mode> modes{{"qmcf", Mode::qmcf}, {"qmorph", Mode::qmorph}};
   app.add_option("--mode", command.options.mode, "Advancing front: qmcf (guided by the field) or qmorph (the original)")
       ->transform(CLI::CheckedTransformer(modes).description(""))

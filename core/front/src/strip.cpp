@@ -23,7 +23,6 @@ constexpr double kReach = 2.2;
 constexpr double kLeastNormal = 0.5;
 // No element has a smaller shape.
 constexpr double kLeastShape = 0.12;
-constexpr double kTriangleCost = 2.0;
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
@@ -276,15 +275,6 @@ std::optional<FaceMesh> meshStrip(const Patch& patch) {
   outline.mesh.elements = PolygonCutter(outline).run();
   if (outline.mesh.elements.empty() || !isLike(patch.surface, outline.mesh)) return std::nullopt;
   return std::move(outline.mesh);
-}
-
-double stripCost(const FaceMesh& mesh) {
-  double cost = 0.0;
-  for (const Element& element : mesh.elements) {
-    const double shape = elementShape(mesh, element);
-    cost += (1.0 - shape) * (1.0 - shape) + (cornerCount(element) == 3 ? kTriangleCost : 0.0);
-  }
-  return cost;
 }
 
 }  // namespace qmcf

@@ -148,4 +148,13 @@ double elementShape(const FaceMesh& mesh, const Element& element) {
   return worst;
 }
 
+double shapeCost(const FaceMesh& mesh) {
+  double cost = 0.0;
+  for (const Element& element : mesh.elements) {
+    const double shape = elementShape(mesh, element);
+    cost += (1.0 - shape) * (1.0 - shape) + (cornerCount(element) == 3 ? kTriangleCost : 0.0);
+  }
+  return cost;
+}
+
 }  // namespace qmcf

@@ -13,7 +13,7 @@ struct CountTrial {
 /// What number of elements to ask of the size field for about `wanted`. The front makes some more or fewer than the
 /// field takes, which depends on the part: rows that close in on a disc's centre get too narrow before one ends, those
 /// that spread over a sphere too wide. Returns what was asked for, scaled to `wanted`, where nothing is to be
-/// corrected: the count is off by less than 3 %, or there are more than 20 % too many, which come from small features
+/// corrected: the count is off by less than 4 %, or there are more than 20 % too many, which come from small features
 /// and are not made up for by larger elements elsewhere. At most half as many again.
 std::int64_t correctedCount(const CountTrial& trial, std::int64_t wanted);
 

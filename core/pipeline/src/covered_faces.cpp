@@ -4,8 +4,6 @@
 #include <cstddef>
 #include <utility>
 
-#include "face_tree.hpp"
-
 namespace qmcf {
 namespace {
 
@@ -19,16 +17,15 @@ std::vector<std::int32_t> edgesOf(const BrepFace& face) {
 }
 
 /// Whether the corners and centres of the upper face's triangles are near the lower face.
-bool isNear(const TriangleMesh& mesh, const BrepFace& upper, const BrepFace& lower, double distance) {
-  const TriangleBvh tree = faceTree(mesh, lower);
+bool isNear(const TriangleMesh& mesh, const BrepFace& upper, const TriangleBvh& lower, double distance) {
   for (const std::int32_t t : upper.triangles) {
     Vec3 centre;
     for (const std::int32_t v : mesh.triangles[static_cast<std::size_t>(t)]) {
       const Vec3& p = mesh.positions[static_cast<std::size_t>(v)];
-      if (tree.closest(p).squaredDistance > distance * distance) return false;
+      if (lower.closest(p).squaredDistance > distance * distance) return false;
       centre += p / 3.0;
     }
-    if (tree.closest(centre).squaredDistance > distance * distance) return false;
+    if (lower.closest(centre).squaredDistance > distance * distance) return false;
   }
   return true;
 }
@@ -117,7 +114,8 @@ void preferUnturned(const Brep& brep, CoveredFaces& covered) {
 
 }  // namespace
 
-CoveredFaces coveredFaces(const TriangleMesh& mesh, const Brep& brep, double distance) {
+CoveredFaces coveredFaces(const Part& part, double distance) {
+  const Brep& brep = part.brep;
   std::vector<std::pair<std::vector<std::int32_t>, std::int32_t>> byEdges;
   for (std::size_t f = 0; f < brep.faces.size(); ++f) {
     // Elsewhere the edges would be left with one face, and open.
@@ -137,9 +135,10 @@ CoveredFaces coveredFaces(const TriangleMesh& mesh, const Brep& brep, double dis
       std::int32_t kept = byEdges[i].second;
       std::int32_t omitted = byEdges[j].second;
       if (below[static_cast<std::size_t>(kept)] != kNone || below[static_cast<std::size_t>(omitted)] != kNone) continue;
-      const BrepFace& first = brep.faces[static_cast<std::size_t>(kept)];
-      const BrepFace& second = brep.faces[static_cast<std::size_t>(omitted)];
-      if (!isNear(mesh, first, second, distance) || !isNear(mesh, second, first, distance)) continue;
+      const auto first = static_cast<std::size_t>(kept);
+      const auto second = static_cast<std::size_t>(omitted);
+      if (!isNear(part.mesh, brep.faces[first], part.faceTrees[second], distance)) continue;
+      if (!isNear(part.mesh, brep.faces[second], part.faceTrees[first], distance)) continue;
       if (agreement(brep, omitted, kept) > agreement(brep, kept, omitted)) std::swap(kept, omitted);
       below[static_cast<std::size_t>(omitted)] = kept;
     }

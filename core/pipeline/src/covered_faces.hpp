@@ -3,8 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "qmcf/mesh/triangle_mesh.hpp"
-#include "qmcf/topology/brep.hpp"
+#include "part.hpp"
 
 namespace qmcf {
 
@@ -17,6 +16,6 @@ struct CoveredFaces {
 /// Faces between the same edges as another one and nowhere farther from it than `distance`: two layers that elements
 /// of a larger size can't tell apart, so that only one of them can be meshed: the one whose orientation agrees better
 /// with the faces around.
-CoveredFaces coveredFaces(const TriangleMesh& mesh, const Brep& brep, double distance);
+CoveredFaces coveredFaces(const Part& part, double distance);
 
 }  // namespace qmcf

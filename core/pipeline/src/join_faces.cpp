@@ -2,26 +2,25 @@
 
 #include <cstddef>
 
-#include "face_tree.hpp"
 #include "qmcf/cleanup/joint_relaxation.hpp"
 #include "qmcf/sizing/edge_curve.hpp"
 
 namespace qmcf {
 
-Result<std::int64_t> relaxJoint(const TriangleMesh& mesh, const Brep& brep, const PreparedFaces& prepared,
-                                std::vector<SharedFace>& faces, const std::vector<char>& held, SharedNodes& shared,
-                                double sizeScale, Progress& progress) {
-  std::vector<TriangleBvh> trees;
-  for (const BrepFace& face : brep.faces) trees.push_back(faceTree(mesh, face));
+Result<std::int64_t> relaxJoint(const Part& part, const PreparedFaces& prepared, std::vector<SharedFace>& faces,
+                                const std::vector<char>& held, SharedNodes& shared, double sizeScale,
+                                Progress& progress) {
+  const Brep& brep = part.brep;
   std::vector<JointFace> joint;
   for (std::size_t f = 0; f < faces.size(); ++f) {
-    joint.push_back({&faces[f].mesh, &faces[f].node, &prepared.patches[f], &trees[f], held[f] != 0});
+    joint.push_back({&faces[f].mesh, &faces[f].node, &prepared.patches[f], &part.faceTrees[f], held[f] != 0});
   }
   std::vector<JointEdge> edges;
   for (std::size_t e = 0; e < brep.edges.size(); ++e) {
     const bool closesSmoothly = brep.edges[e].start == brep.edges[e].end &&
                                 brep.vertices[static_cast<std::size_t>(brep.edges[e].start)].artificial;
-    edges.push_back({edgeCurve(mesh, brep.edges[e]), shared.edges[e].nodes, shared.edges[e].arcLength, closesSmoothly});
+    edges.push_back(
+        {edgeCurve(part.mesh, brep.edges[e]), shared.edges[e].nodes, shared.edges[e].arcLength, closesSmoothly});
     for (const std::int32_t stop : brep.edges[e].stops) {
       edges.back().stays.push_back(edges.back().curve.arcLength[static_cast<std::size_t>(stop)]);
     }

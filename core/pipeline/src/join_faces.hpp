@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "mesh_faces.hpp"
+#include "part.hpp"
 #include "prepare.hpp"
 #include "shared_nodes.hpp"
 
@@ -11,9 +12,9 @@ namespace qmcf {
 /// Relaxes the faces' meshes together, across the edges that they share, and moves the nodes on these.
 /// held: per face, 1 if it stays as it is. Errors:
 /// cancelled.
-Result<std::int64_t> relaxJoint(const TriangleMesh& mesh, const Brep& brep, const PreparedFaces& prepared,
-                                std::vector<SharedFace>& faces, const std::vector<char>& held, SharedNodes& shared,
-                                double sizeScale, Progress& progress);
+Result<std::int64_t> relaxJoint(const Part& part, const PreparedFaces& prepared, std::vector<SharedFace>& faces,
+                                const std::vector<char>& held, SharedNodes& shared, double sizeScale,
+                                Progress& progress);
 
 /// Joins the faces' meshes at the nodes that they share. Faces without elements are left out.
 QuadMesh joinFaces(const SharedNodes& shared, const std::vector<SharedFace>& faces);

@@ -6,7 +6,6 @@
 #include <cstddef>
 #include <utility>
 
-#include "face_tree.hpp"
 #include "qmcf/cleanup/cleanup.hpp"
 #include "qmcf/cleanup/subdivide.hpp"
 #include "qmcf/front/advancing_front.hpp"
@@ -45,10 +44,9 @@ void count(FaceReport& report, const FaceMesh& mesh) {
 }
 
 /// Whether the ledger of a face's mesh closes with the Euler characteristic of the part's face, counted on the part.
-[[maybe_unused]] bool ledgerCloses(const FaceMesh& made, const TriangleMesh& mesh, const Brep& brep,
-                                   std::int32_t face) {
+[[maybe_unused]] bool ledgerCloses(const FaceMesh& made, const Part& part, std::int32_t face) {
   const IndexLedger ledger = indexLedger(made.positions, made.elements);
-  return ledger.closes() && ledger.sum() == 4 * faceSurface(mesh, brep, face).surface.eulerCharacteristic();
+  return ledger.closes() && ledger.sum() == 4 * faceSurface(part.mesh, part.brep, face).surface.eulerCharacteristic();
 }
 
 /// Where a front that nothing else starts is tried, as shares of the triangles.
@@ -107,16 +105,15 @@ bool isGoodStrip(const FaceMesh& mesh) {
 
 }  // namespace
 
-Result<MeshedFace> meshFace(const TriangleMesh& mesh, const Brep& brep, const PreparedFaces& prepared,
-                            std::int32_t face, const MeshOptions& options, const std::optional<TraceScale>& scale,
-                            Progress& progress) {
+Result<MeshedFace> meshFace(const Part& part, const PreparedFaces& prepared, std::int32_t face, Progress& progress) {
   const auto f = static_cast<std::size_t>(face);
+  const Mode mode = part.options.mode;
   const Patch& patch = prepared.patches[f];
-  const TriangleBvh tree = faceTree(mesh, brep.faces[f]);
+  const TriangleBvh& tree = part.faceTrees[f];
   MeshedFace result;
   result.report.face = face;
   std::optional<TraceRecorder> recorder;
-  if (scale) recorder.emplace(result.trace, *scale);
+  if (part.traceScale) recorder.emplace(result.trace, *part.traceScale);
   TraceRecorder* const trace = recorder ? &*recorder : nullptr;
   if (prepared.given[f] != Given::nothing) {
     const bool paired = prepared.given[f] == Given::pairs;
@@ -127,13 +124,13 @@ Result<MeshedFace> meshFace(const TriangleMesh& mesh, const Brep& brep, const Pr
       EditMesh work(result.mesh);
       trace->begin(paired ? TraceKind::paired : TraceKind::triangulated, work);
     }
-    assert(ledgerCloses(result.mesh, mesh, brep, face));
+    assert(ledgerCloses(result.mesh, part, face));
     count(result.report, result.mesh);
     return result;
   }
 
   // The original has no such thing.
-  std::optional<FaceMesh> strip = options.mode == Mode::qmcf ? meshStrip(patch) : std::nullopt;
+  std::optional<FaceMesh> strip = mode == Mode::qmcf ? meshStrip(patch) : std::nullopt;
   const auto takeStrip = [&] {
     result.mesh = std::move(*strip);
     result.report.method = "strip";
@@ -141,7 +138,7 @@ Result<MeshedFace> meshFace(const TriangleMesh& mesh, const Brep& brep, const Pr
       EditMesh work(result.mesh);
       trace->begin(TraceKind::strip, work);
     }
-    assert(ledgerCloses(result.mesh, mesh, brep, face));
+    assert(ledgerCloses(result.mesh, part, face));
     count(result.report, result.mesh);
     return std::move(result);
   };
@@ -150,20 +147,20 @@ Result<MeshedFace> meshFace(const TriangleMesh& mesh, const Brep& brep, const Pr
   // A front that got stuck may do better from another start, where the start is free.
   bool isStuck = true;
   Result<FaceMesh> front = FaceMesh{};
-  for (std::size_t start = 0; isStuck && start < (brep.faces[f].loops.empty() ? kSeedPlaces.size() : 1); ++start) {
-    front = advance(patch, prepared, tree, f, options.mode, kSeedPlaces[start], progress, trace);
+  for (std::size_t start = 0; isStuck && start < (part.brep.faces[f].loops.empty() ? kSeedPlaces.size() : 1); ++start) {
+    front = advance(patch, prepared, tree, f, mode, kSeedPlaces[start], progress, trace);
     if (!front) return front.error();
-    assert(ledgerCloses(front.value(), mesh, brep, face));
+    assert(ledgerCloses(front.value(), part, face));
     isStuck = gotStuck(front.value(), patch);
   }
   auto cleaned = cleanUp(front.value(), patch, tree, CleanupOptions{}, progress, trace);
   if (!cleaned) return cleaned.error();
-  assert(ledgerCloses(cleaned.value().mesh, mesh, brep, face));
+  assert(ledgerCloses(cleaned.value().mesh, part, face));
   const bool isGood = cleaned.value().degenerate.empty() && !isStuck;
-  if (strip && (!isGood || stripCost(*strip) < stripCost(cleaned.value().mesh))) return takeStrip();
+  if (strip && (!isGood || shapeCost(*strip) < shapeCost(cleaned.value().mesh))) return takeStrip();
   if (isGood) {
     result.mesh = std::move(cleaned.value().mesh);
-    result.report.method = modeName(options.mode);
+    result.report.method = modeName(mode);
     count(result.report, result.mesh);
     return result;
   }
@@ -184,7 +181,7 @@ Result<MeshedFace> meshFace(const TriangleMesh& mesh, const Brep& brep, const Pr
       trace->begin(TraceKind::triangulated, work);
     }
   }
-  assert(ledgerCloses(result.mesh, mesh, brep, face));
+  assert(ledgerCloses(result.mesh, part, face));
   count(result.report, result.mesh);
   return result;
 }
@@ -210,12 +207,11 @@ SharedFace shareCut(const CutFace& face, const PreparedFaces& prepared, const Sh
   return shared;
 }
 
-Result<CutFace> cutFace(const TriangleMesh& mesh, const Brep& brep, const PreparedFaces& prepared,
-                        const TriangleBvh& part, const MeshedFace& face, const SharedNodes& halved,
-                        const std::optional<TraceScale>& scale, Progress& progress) {
+Result<CutFace> cutFace(const Part& part, const PreparedFaces& prepared, const TriangleBvh& whole,
+                        const MeshedFace& face, const SharedNodes& halved, Progress& progress) {
   const auto f = static_cast<std::size_t>(face.report.face);
   const Patch& patch = prepared.patches[f];
-  const TriangleBvh tree = faceTree(mesh, brep.faces[f]);
+  const TriangleBvh& tree = part.faceTrees[f];
   IdMap<HalfedgeId, Vec3> middle(patch.surface.halfedgeCount());
   for (const HalfedgeId h : IdRange<HalfedgeId>(patch.surface.halfedgeCount())) {
     if (!patch.surface.isBoundary(h)) continue;
@@ -225,7 +221,7 @@ Result<CutFace> cutFace(const TriangleMesh& mesh, const Brep& brep, const Prepar
   SubdividedFace cut = subdivide(face.mesh, patch, tree, middle, isGiven ? NewVertices::between : NewVertices::onFace);
   CutFace result{{}, {}, face.report, face.trace};
   std::optional<TraceRecorder> recorder;
-  if (scale) recorder.emplace(result.trace, *scale);
+  if (part.traceScale) recorder.emplace(result.trace, *part.traceScale);
   TraceRecorder* const trace = recorder ? &*recorder : nullptr;
   if (isGiven) {
     result.mesh = std::move(cut.mesh);
@@ -239,8 +235,8 @@ Result<CutFace> cutFace(const TriangleMesh& mesh, const Brep& brep, const Prepar
     options.topology = false;
     options.quadsOnly = true;
     options.sizeScale = 0.5;
-    const WholePart whole{part, brep.faces[f].triangles};
-    options.part = &whole;
+    const WholePart around{whole, part.brep.faces[f].triangles};
+    options.part = &around;
     auto relaxed = cleanUp(cut.mesh, patch, tree, options, progress, trace, TraceKind::subdivision);
     if (!relaxed) return relaxed.error();
     result.mesh = std::move(relaxed.value().mesh);
@@ -248,7 +244,7 @@ Result<CutFace> cutFace(const TriangleMesh& mesh, const Brep& brep, const Prepar
       result.halves.push_back(v == kNone ? HalfedgeId() : cut.boundaryEdge[static_cast<std::size_t>(v)]);
     }
   }
-  assert(ledgerCloses(result.mesh, mesh, brep, face.report.face));
+  assert(ledgerCloses(result.mesh, part, face.report.face));
   count(result.report, result.mesh);
   return result;
 }

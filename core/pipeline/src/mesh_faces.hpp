@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "part.hpp"
 #include "prepare.hpp"
 #include "qmcf/mesh/face_mesh.hpp"
 #include "qmcf/mesh/trace.hpp"
@@ -29,11 +30,9 @@ struct MeshedFace {
 };
 
 /// Advancing front and clean-up; if the front got stuck or left an element that no solver takes, the paired triangles
-/// of the background; failing that, the triangles themselves (H8 of docs/algorithm.md). The history is recorded in
-/// `scale`, if given. Errors: cancelled.
-Result<MeshedFace> meshFace(const TriangleMesh& mesh, const Brep& brep, const PreparedFaces& prepared,
-                            std::int32_t face, const MeshOptions& options, const std::optional<TraceScale>& scale,
-                            Progress& progress);
+/// of the background; failing that, the triangles themselves (H8 of docs/algorithm.md). The history is recorded if the
+/// part has a scale for it. Errors: cancelled.
+Result<MeshedFace> meshFace(const Part& part, const PreparedFaces& prepared, std::int32_t face, Progress& progress);
 
 /// A face's mesh with its ties to the others.
 struct SharedFace {
@@ -49,11 +48,10 @@ SharedFace shareFace(const MeshedFace& face, const PreparedFaces& prepared);
 /// The same of what the face was cut in. halved: the nodes of the boundary with the middles between them.
 SharedFace shareCut(const CutFace& face, const PreparedFaces& prepared, const SharedNodes& halved);
 
-/// Cuts every element of a face at the middles of its edges, and relaxes what that makes. part: the tree over all its
-/// triangles; halved: the nodes of the boundary with those middles, of which only the places matter. The history goes
-/// on in `scale`, if given. Errors: cancelled.
-Result<CutFace> cutFace(const TriangleMesh& mesh, const Brep& brep, const PreparedFaces& prepared,
-                        const TriangleBvh& part, const MeshedFace& face, const SharedNodes& halved,
-                        const std::optional<TraceScale>& scale, Progress& progress);
+/// Cuts every element of a face at the middles of its edges, and relaxes what that makes. whole: the tree over all
+/// triangles of the part; halved: the nodes of the boundary with those middles, of which only the places matter. The
+/// history goes on. Errors: cancelled.
+Result<CutFace> cutFace(const Part& part, const PreparedFaces& prepared, const TriangleBvh& whole,
+                        const MeshedFace& face, const SharedNodes& halved, Progress& progress);
 
 }  // namespace qmcf

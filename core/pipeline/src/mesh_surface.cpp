@@ -37,6 +37,12 @@ std::optional<Error> validateSizes(const MeshOptions& options) {
     return invalid(
         "Give either sizes or quads, not both: the sizes say how many elements there are. size may go with them.");
   }
+  if (options.fitSizes && options.mode != Mode::qmcf) {
+    return invalid("fitSizes needs the mode qmcf: the other one asks no cross field that sizes could fit.");
+  }
+  if (options.fitSizes && !options.sizes.empty() && !options.size) {
+    return invalid("fitSizes goes with size or quads, not with sizes alone: these say what they are themselves.");
+  }
   for (std::size_t i = 0; i < options.sizes.size(); ++i) {
     if (isLength(options.sizes[i])) continue;
     return Error{ErrorCode::invalidOption,
@@ -100,7 +106,7 @@ Result<FieldResult> computeField(const TriangleMesh& input, const MeshOptions& o
   auto own = optionsFor(input, result.input, options);
   if (!own) return own.error();
   own.value().mode = Mode::qmcf;  // The field is wanted whatever front would ask it.
-  auto prepared = prepareFaces(result.input.repaired.mesh, result.input.brep, own.value(), progress);
+  auto prepared = prepareFaces(result.input.repaired.mesh, result.input.brep, own.value(), nullptr, progress);
   if (!prepared) return prepared.error();
   result.size = prepared.value().size.base;
   result.patches = std::move(prepared.value().patches);

@@ -31,9 +31,11 @@ FieldOptions fieldOptions(const MeshOptions& options) {
   return field;
 }
 
-SizingOptions sizingOptions(const MeshOptions& options) {
+SizingOptions sizingOptions(const MeshOptions& options, const SizeScale* scale) {
   SizingOptions sizing;
+  sizing.scale = scale;
   sizing.size = options.size;
+  if (sizing.size && scale != nullptr) *sizing.size /= scale->mean();
   sizing.quads = options.quads;
   sizing.vertexSize = options.sizes;
   sizing.curvature = options.curvature;
@@ -66,14 +68,14 @@ bool isSamePatch(const Patch& a, const Patch& b) {
 /// The stages up to the cross fields, as often as the faces ask for smaller elements.
 class Preparation {
  public:
-  Preparation(const TriangleMesh& mesh, const Brep& brep, const MeshOptions& options, PreparedFaces before,
-              Progress& progress)
+  Preparation(const TriangleMesh& mesh, const Brep& brep, const MeshOptions& options, const SizeScale* scale,
+              PreparedFaces before, Progress& progress)
       : mesh_(mesh),
         brep_(brep),
         options_(options),
         result_(std::move(before)),
         progress_(progress),
-        sizing_(sizingOptions(options)) {
+        sizing_(sizingOptions(options, scale)) {
     if (options.mode == Mode::qmorph) background_.relativeSize = background_.flatSize = kMorphTriangleSize;
     minimum_.assign(brep.edges.size(), 1);
     done_.assign(brep.faces.size(), !result_.patches.empty());
@@ -278,20 +280,22 @@ std::int32_t threadsOf(const MeshOptions& options) {
 }
 
 Result<PreparedFaces> prepareFaces(const TriangleMesh& mesh, const Brep& brep, const MeshOptions& options,
-                                   Progress& progress) {
-  return Preparation(mesh, brep, options, {}, progress).run({});
+                                   const SizeScale* scale, Progress& progress) {
+  return Preparation(mesh, brep, options, scale, {}, progress).run({});
 }
 
 Result<PreparedFaces> refineFaces(const TriangleMesh& mesh, const Brep& brep, const MeshOptions& options,
-                                  PreparedFaces prepared, const std::vector<SizeLimit>& limits, Progress& progress) {
-  Preparation preparation(mesh, brep, options, std::move(prepared), progress);
+                                  const SizeScale* scale, PreparedFaces prepared, const std::vector<SizeLimit>& limits,
+                                  Progress& progress) {
+  Preparation preparation(mesh, brep, options, scale, std::move(prepared), progress);
   preparation.keepBaseSize();
   return preparation.run(limits);
 }
 
 Result<PreparedFaces> prepareGiven(const TriangleMesh& mesh, const Brep& brep, const MeshOptions& options,
-                                   const PreparedSizes& before, const std::vector<Given>& given, Progress& progress) {
-  Preparation preparation(mesh, brep, options, {}, progress);
+                                   const SizeScale* scale, const PreparedSizes& before, const std::vector<Given>& given,
+                                   Progress& progress) {
+  Preparation preparation(mesh, brep, options, scale, {}, progress);
   preparation.keepSizes(before);
   preparation.give(given);
   return preparation.run({});
@@ -305,8 +309,8 @@ void keepUnchanged(const PreparedFaces& before, PreparedFaces& now) {
 }
 
 Result<SizeField> sizeField(const TriangleMesh& mesh, const Brep& brep, const MeshOptions& options,
-                            const PreparedSizes& sizes, Progress& progress) {
-  SizingOptions sizing = sizingOptions(options);
+                            const SizeScale* scale, const PreparedSizes& sizes, Progress& progress) {
+  SizingOptions sizing = sizingOptions(options, scale);
   useSizes(sizing, sizes);
   return computeSizeField(mesh, brep, sizing, progress);
 }

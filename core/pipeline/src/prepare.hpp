@@ -37,19 +37,22 @@ struct PreparedSizes {
 
 /// Size field, divided edges, background triangulations and cross fields. Edges whose chords would cut through a face
 /// get more divisions until none does; places that the triangulation can't follow get smaller elements.
-/// Errors: those of the stages.
+/// scale: what the size is multiplied by from place to place, here and below; nullptr: nothing. A size given in the
+/// options is the mean one then. Errors: those of the stages.
 Result<PreparedFaces> prepareFaces(const TriangleMesh& mesh, const Brep& brep, const MeshOptions& options,
-                                   Progress& progress);
+                                   const SizeScale* scale, Progress& progress);
 
 /// The same with smaller elements at `limits` and the base size as it was. Faces out of their reach keep all they have,
 /// apart from the numbers of the shared nodes.
 Result<PreparedFaces> refineFaces(const TriangleMesh& mesh, const Brep& brep, const MeshOptions& options,
-                                  PreparedFaces prepared, const std::vector<SizeLimit>& limits, Progress& progress);
+                                  const SizeScale* scale, PreparedFaces prepared, const std::vector<SizeLimit>& limits,
+                                  Progress& progress);
 
 /// The same, from the beginning, with the sizes and divisions that `before` had, and some faces made of the part's own
 /// triangles; their edges are divided at the part's own points.
 Result<PreparedFaces> prepareGiven(const TriangleMesh& mesh, const Brep& brep, const MeshOptions& options,
-                                   const PreparedSizes& before, const std::vector<Given>& given, Progress& progress);
+                                   const SizeScale* scale, const PreparedSizes& before, const std::vector<Given>& given,
+                                   Progress& progress);
 
 /// Takes the faces out of now.changed that are what they were in `before`, apart from the numbers of the shared nodes:
 /// their meshes would be, too.
@@ -57,6 +60,6 @@ void keepUnchanged(const PreparedFaces& before, PreparedFaces& now);
 
 /// The size field with these sizes. Errors: cancelled.
 Result<SizeField> sizeField(const TriangleMesh& mesh, const Brep& brep, const MeshOptions& options,
-                            const PreparedSizes& sizes, Progress& progress);
+                            const SizeScale* scale, const PreparedSizes& sizes, Progress& progress);
 
 }  // namespace qmcf

@@ -194,6 +194,7 @@ std::string toJson(const MeshResult& result) {
                {"refinedPlaces", result.refinedPlaces},
                {"heldFaces", result.heldFaces},
                {"slidNodes", result.slidNodes},
+               {"fittedSizes", result.fittedSizes},
                {"sizing", toValue(result.sizing)},
                {"sizeConformity", toValue(result.sizeConformity)}});
 }

@@ -123,10 +123,10 @@ void limitByLength(EdgeSamples& samples, double lowest) {
   }
 }
 
-void limitByGaps(EdgeSamples& samples, const std::vector<Gap>& gaps, double lowest) {
+void limitByGaps(EdgeSamples& samples, const std::vector<Gap>& gaps, double nominal, double lowest) {
   for (const Gap& gap : gaps) {
     // A strip can take elements longer than it is wide: the mean of both lengths keeps count and aspect at bay.
-    const double size = std::max(lowest, std::sqrt(gap.distance * samples.base));
+    const double size = std::max(lowest, std::sqrt(gap.distance * nominal));
     for (std::size_t end = 0; end < 2; ++end) samples.lower(gap.edge[end], gap.arcLength[end], size);
   }
 }

@@ -49,8 +49,8 @@ void limitByLength(EdgeSamples& samples, double lowest);
 std::optional<std::vector<Gap>> findGaps(const std::vector<EdgeCurve>& curves, const TriangleMesh& mesh,
                                          const Brep& brep, double reach, double spacing, Progress& progress);
 
-/// Lowers sizes at both ends of gaps narrower than the size.
-void limitByGaps(EdgeSamples& samples, const std::vector<Gap>& gaps, double lowest);
+/// Lowers sizes at both ends of gaps narrower than `nominal`, the size away from edges.
+void limitByGaps(EdgeSamples& samples, const std::vector<Gap>& gaps, double nominal, double lowest);
 
 /// Where a gap is one element wide, gives both ends the geometric mean of their sizes: a row of elements has no room
 /// for a change of their number from one side to the other.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "curvature_sizes.hpp"
 #include "mesh_gradation.hpp"
@@ -17,6 +18,8 @@ constexpr double kLowestByCurvature = 0.1;
 /// longest side is more than so many of these.
 constexpr double kFlatter = 1.5;
 constexpr double kLongest = 2.0;
+/// With a scale, the longest side of a triangle in units of the scale's.
+constexpr double kLongestInScale = 2.0;
 
 std::pair<std::int32_t, std::int32_t> ascending(std::int32_t a, std::int32_t b) {
   return {std::min(a, b), std::max(a, b)};
@@ -25,8 +28,8 @@ std::pair<std::int32_t, std::int32_t> ascending(std::int32_t a, std::int32_t b) 
 }  // namespace
 
 InnerSources::InnerSources(const TriangleMesh& mesh, const Brep& brep, const SizingOptions& options, double lowestBase)
-    : lowestBase_(lowestBase), vertexCount_(mesh.positions.size()) {
-  if (options.vertexSize.empty() && !options.curvature) return;
+    : lowestBase_(lowestBase), longest_(kInfinity), vertexCount_(mesh.positions.size()) {
+  if (options.vertexSize.empty() && !options.curvature && options.scale == nullptr) return;
   sizes_.positions = mesh.positions;
   given_ = options.vertexSize;
   given_.resize(vertexCount_, kInfinity);
@@ -37,7 +40,23 @@ InnerSources::InnerSources(const TriangleMesh& mesh, const Brep& brep, const Siz
     curved_ = std::move(curvature.vertex);
     own = std::move(curvature.triangle);
   }
+  if (options.scale != nullptr) longest_ = kLongestInScale * options.scale->spacing();
   appendFaces(mesh, brep, own);
+  factor_.assign(sizes_.positions.size(), 1.0);
+  if (options.scale != nullptr) applyScale(*options.scale);
+}
+
+/// On an edge of the B-rep the faces' scales agree.
+void InnerSources::applyScale(const SizeScale& scale) {
+  std::vector<char> done(factor_.size(), 0);
+  for (std::size_t f = 0; f + 1 < sizes_.firstOfFace.size(); ++f) {
+    for (std::size_t t = sizes_.firstOfFace[f]; t < sizes_.firstOfFace[f + 1]; ++t) {
+      for (const std::int32_t corner : sizes_.triangles[t]) {
+        const auto v = static_cast<std::size_t>(corner);
+        if (std::exchange(done[v], 1) == 0) factor_[v] = scale.at(static_cast<std::int32_t>(f), sizes_.positions[v]);
+      }
+    }
+  }
 }
 
 double InnerSources::fromCurvature(std::size_t v, double base) const {
@@ -57,13 +76,15 @@ std::size_t InnerSources::longestSide(const std::array<std::int32_t, 3>& corner)
 }
 
 bool InnerSources::isRough(const std::array<std::int32_t, 3>& corner, double own) const {
+  const std::size_t side = longestSide(corner);
+  const double longest = length(corner[side], corner[(side + 1) % 3]);
+  if (longest > longest_) return true;
   double smallest = lowestBase_;
   for (const std::int32_t v : corner) {
     smallest = std::min(smallest, fromCurvature(static_cast<std::size_t>(v), lowestBase_));
   }
   if (!(std::min(own, lowestBase_) > kFlatter * smallest)) return false;
-  const std::size_t side = longestSide(corner);
-  return length(corner[side], corner[(side + 1) % 3]) > kLongest * smallest;
+  return longest > kLongest * smallest;
 }
 
 std::int32_t InnerSources::middle(std::int32_t a, std::int32_t b, double beside) {
@@ -138,7 +159,7 @@ InnerSizes InnerSources::sizes(double base, double gradation) const {
   InnerSizes sizes = sizes_;
   sizes.value.reserve(sizes.positions.size());
   for (std::size_t v = 0; v < sizes.positions.size(); ++v) {
-    sizes.value.push_back(std::min({base, given_[v], fromCurvature(v, base)}));
+    sizes.value.push_back(std::min({base * factor_[v], given_[v], fromCurvature(v, base)}));
   }
   MeshGradation(sizes.positions, sizes.triangles).grade(sizes.value, base, gradation);
   return sizes;
@@ -185,7 +206,7 @@ SizeSources InnerSources::counts(double base) const {
   if (empty()) return counts;
   for (std::size_t v = 0; v < vertexCount_; ++v) {
     const double curved = fromCurvature(v, base);
-    if (std::min(given_[v], curved) >= base) continue;
+    if (std::min(given_[v], curved) >= base * factor_[v]) continue;
     ++(given_[v] <= curved ? counts.bySizes : counts.byCurvature);
     if (curved < given_[v] && curved > curved_[v]) ++counts.floored;
   }

@@ -15,13 +15,13 @@
 
 namespace qmcf {
 
-/// What asks for sizes inside faces: given sizes and curvature. Lengths from curvature hold where a face is curved and
-/// are not linear across a large flat triangle beside that; such triangles are cut until they are as small as what
-/// their corners ask for.
+/// What asks for sizes inside faces: given sizes, curvature and a scale. Lengths from curvature hold where a face is
+/// curved and are not linear across a large flat triangle beside that; such triangles are cut until they are as small
+/// as what their corners ask for, and with a scale until they are about as small as its triangles.
 class InnerSources {
  public:
-  /// lowestBase: the smallest base size that will be asked for. Nothing asks if neither vertexSize nor curvature is
-  /// set.
+  /// lowestBase: the smallest base size that will be asked for. Nothing asks if neither vertexSize nor curvature nor a
+  /// scale is set.
   InnerSources(const TriangleMesh& mesh, const Brep& brep, const SizingOptions& options, double lowestBase);
 
   [[nodiscard]] bool empty() const { return sizes_.triangles.empty(); }
@@ -44,15 +44,18 @@ class InnerSources {
   [[nodiscard]] bool isRough(const std::array<std::int32_t, 3>& corner, double own) const;
   [[nodiscard]] double length(std::int32_t a, std::int32_t b) const;
   [[nodiscard]] std::size_t longestSide(const std::array<std::int32_t, 3>& corner) const;
+  void applyScale(const SizeScale& scale);
   std::int32_t middle(std::int32_t a, std::int32_t b, double beside);
   void cut(Piece whole, double own);
   void appendFaces(const TriangleMesh& mesh, const Brep& brep, const std::vector<double>& own);
 
   double lowestBase_;
+  double longest_;                       ///< Of a triangle's sides.
   std::size_t vertexCount_;              ///< Of the mesh.
   InnerSizes sizes_;                     ///< Without values.
   std::vector<double> given_;            ///< Per position; infinite without any.
   std::vector<double> curved_;           ///< Likewise.
+  std::vector<double> factor_;           ///< Of the base size, per position; 1 without a scale.
   std::map<Edge, std::int32_t> middle_;  ///< Edges that were cut, by their ends, ascending.
 };
 

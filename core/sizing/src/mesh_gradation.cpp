@@ -1,5 +1,7 @@
 #include "mesh_gradation.hpp"
 
+#include <algorithm>
+
 #include "qmcf/sizing/min_heap.hpp"
 
 namespace qmcf {
@@ -26,7 +28,15 @@ MeshGradation::MeshGradation(const std::vector<Vec3>& positions,
 void MeshGradation::grade(std::vector<double>& value, double highest, double slope) const {
   MinHeap heap;
   for (std::size_t v = 0; v < value.size(); ++v) {
-    if (value[v] < highest) heap.push(value[v], static_cast<std::int32_t>(v));
+    if (!(value[v] < highest)) continue;
+    // Most of them lower nothing around them, unless they get lower themselves.
+    const auto lowers = [&](std::int32_t neighbor) {
+      const auto w = static_cast<std::size_t>(neighbor);
+      return value[v] + slope * distance(positions_[v], positions_[w]) < value[w];
+    };
+    const auto begin = neighbor_.begin() + static_cast<std::ptrdiff_t>(first_[v]);
+    const auto end = neighbor_.begin() + static_cast<std::ptrdiff_t>(first_[v + 1]);
+    if (std::any_of(begin, end, lowers)) heap.push(value[v], static_cast<std::int32_t>(v));
   }
   while (!heap.empty()) {
     const auto [size, vertex] = heap.pop();

@@ -155,43 +155,46 @@ Result<SizeField> computeSizeField(const TriangleMesh& mesh, const Brep& brep, c
   if (!progress.report(Stage::sizing, 0.0)) return cancelledError();
 
   const bool byCount = !options.size && options.vertexSize.empty();
+  const double mean = options.scale != nullptr ? options.scale->mean() : 1.0;
+  const double first = byCount ? base.value() / mean : base.value();
   EdgeSamples samples;
   for (const BrepEdge& edge : brep.edges) samples.curves.push_back(edgeCurve(mesh, edge));
   // Room for a base that grows until the count fits.
-  const double reach = byCount ? kReachByCount * base.value() : base.value();
-  const auto gaps = findGaps(samples.curves, mesh, brep, reach, kSampleSpacing * base.value(), progress);
+  const double reach = byCount ? kReachByCount * first : first;
+  const auto gaps = findGaps(samples.curves, mesh, brep, reach, kSampleSpacing * first * mean, progress);
   if (!gaps) return cancelledError();
-  const InnerSources sources(mesh, brep, options, base.value());
+  const InnerSources sources(mesh, brep, options, first);
 
   SizeField field;
-  field.base = base.value();
+  field.base = first;
   field.gradation = options.gradation;
   field.mostSagitta = kRoomForSagitta * arcSagitta(options.divisionsPerTurn);
-  field.chordSize = options.chordSize.value_or(base.value());
+  field.chordSize = options.chordSize.value_or(first * mean);
   if (options.curvature) field.chordSize = std::min(field.chordSize, *options.curvature / field.mostSagitta);
   field.limits = options.limits;
   CountSearch search(field.base);
   const auto wanted = static_cast<double>(options.quads.value_or(kDefaultQuads));
   for (int attempt = 0; attempt < kAttempts; ++attempt) {
     if (!progress.report(Stage::sizing, 0.6 + 0.05 * attempt)) return cancelledError();
+    field.nominal = field.base * mean;
     if (sources.empty()) {
-      resample(samples, field.base, kSampleSpacing * field.base);
+      resample(samples, field.base, kSampleSpacing * field.nominal);
     } else {
       field.inner = sources.sizes(field.base, options.gradation);
       if (countOf(field.inner) > static_cast<double>(kMostQuads)) return tooFine();
       resampleUnder(samples, field.base, kSampleSpacing, sources.alongEdges(brep, samples.curves, field.inner));
     }
-    field.minimumDivisions = limitByTurning(samples, options.divisionsPerTurn, kLowestByTurning * field.base,
+    field.minimumDivisions = limitByTurning(samples, options.divisionsPerTurn, kLowestByTurning * field.nominal,
                                             field.mostSagitta * field.chordSize);
-    limitByLength(samples, kLowestByLength * field.base);
-    limitByGaps(samples, *gaps, kLowestByProximity * field.base);
+    limitByLength(samples, kLowestByLength * field.nominal);
+    limitByGaps(samples, *gaps, field.nominal, kLowestByProximity * field.nominal);
     SampleGraph graph(samples, brep, options.limits);
     graph.grade(options.gradation);
     graph.store(samples, field.limits);
     if (!byCount || attempt + 1 == kAttempts) break;
     const double ratio = graph.count(mesh, brep, field.inner, options.gradation) / wanted;
     if (std::fabs(ratio - 1.0) < kCountTolerance) break;
-    field.base = std::clamp(search.next(field.base, ratio), base.value(), reach);
+    field.base = std::clamp(search.next(field.base, ratio), first, reach);
   }
   levelAcross(samples, *gaps);
   field.sources = sources.counts(field.base);

@@ -50,7 +50,7 @@ TEST(Strip, MeetsTheNodesOfBothSides) {
   ASSERT_TRUE(mesh);
   expectValid(*mesh, patch);
   EXPECT_EQ(mesh->elements.size(), 12U);
-  EXPECT_NEAR(stripCost(*mesh), 0.0, 1e-12);
+  EXPECT_NEAR(shapeCost(*mesh), 0.0, 1e-12);
 }
 
 TEST(Strip, HasAsFewTrianglesAsTheSidesAllow) {
@@ -77,7 +77,7 @@ TEST(Strip, TurnsCornersAndBranches) {
     expectValid(*mesh, patch);
     // The cells themselves are the only mesh of squares, and all their vertices are on the boundary.
     EXPECT_EQ(2 * mesh->elements.size(), patch.surface.triangleCount());
-    EXPECT_NEAR(stripCost(*mesh), 0.0, 1e-12);
+    EXPECT_NEAR(shapeCost(*mesh), 0.0, 1e-12);
   }
 }
 

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <numbers>
 #include <optional>
 #include <utility>
 
@@ -411,10 +412,46 @@ TEST(MeshSurface, KeepsChordsNearCurvedFaces) {
   }
 }
 
+/// The sector of a ring with radii 1 and 2, 90 degrees wide.
+TriangleMesh sector() {
+  return shapes::grid(60, 20, [](double u, double v) {
+    const double angle = 0.5 * std::numbers::pi * (1.0 - u);
+    return Vec3{(1.0 + v) * std::cos(angle), (1.0 + v) * std::sin(angle), 0.0};
+  });
+}
+
+TEST(MeshSurface, FitsSizesToTheFieldWhereThatIsBetter) {
+  SilentProgress silent;
+  MeshOptions options;
+  options.quads = 900;
+  const auto even = meshSurface(sector(), options, silent);
+  options.fitSizes = true;
+  const auto fitted = meshSurface(sector(), options, silent);
+  ASSERT_TRUE(even.ok() && fitted.ok());
+  for (const auto* const result : {&even, &fitted}) expectGood(result->value());
+  EXPECT_FALSE(even.value().fittedSizes);
+  EXPECT_TRUE(fitted.value().fittedSizes);
+  EXPECT_LT(fitted.value().quality.irregularVertices, even.value().quality.irregularVertices);
+  EXPECT_GT(fitted.value().quality.scaledJacobian.mean, even.value().quality.scaledJacobian.mean);
+  EXPECT_NEAR(static_cast<double>(fitted.value().quality.quads), 900.0, 45.0);
+  EXPECT_NEAR(fitted.value().size, even.value().size, 0.02 * even.value().size);
+  const auto [least, most] = std::minmax_element(fitted.value().vertexSize.begin(), fitted.value().vertexSize.end());
+  EXPECT_GT(*most, 1.3 * *least);
+  EXPECT_LT(*most, 1.5 * *least);
+  // On a plate whose field does not turn there is nothing to fit.
+  const auto plate = meshSurface(shapes::square(8), options, silent);
+  ASSERT_TRUE(plate.ok());
+  EXPECT_FALSE(plate.value().fittedSizes);
+}
+
 TEST(MeshSurface, RefusesSizesThatFitNothing) {
   SilentProgress silent;
   const TriangleMesh part = shapes::cubeSoup(1);
-  std::vector<MeshOptions> bad(4);
+  std::vector<MeshOptions> bad(6);
+  bad[4].fitSizes = true;
+  bad[4].mode = Mode::qmorph;
+  bad[5].fitSizes = true;
+  bad[5].sizes.assign(part.positions.size(), 0.2);
   bad[0].sizes = {1.0, 2.0};
   bad[1].sizes.assign(part.positions.size(), 0.2);
   bad[1].quads = 100;

@@ -240,5 +240,26 @@ TEST(CountInTriangle, IsTheIntegral) {
   }
 }
 
+TEST(InnerSizes, AreTheBaseTimesTheScale) {
+  TriangleMesh mesh;
+  mesh.positions = {{0, 0, 0}, {10, 0, 0}, {10, 10, 0}, {0, 10, 0}};
+  parts::addQuad(mesh, 0, 1, 2, 3);
+  const SizeScale scale(
+      {{{{0, 0, 0}, {10, 0, 0}, {10, 10, 0}, {0, 10, 0}}, {{0, 1, 2}, {0, 2, 3}}, {0.8, 1.0, 1.0, 0.8}}});
+  SizingOptions options;
+  options.scale = &scale;
+  options.quads = 400;
+  const SizeField field = sizesOf(mesh, options);
+  EXPECT_NEAR(countOf(field.inner), 400.0, 0.03 * 400.0);
+  EXPECT_NEAR(field.nominal, 0.5, 0.02);
+  EXPECT_NEAR(field.nominal, field.base * scale.mean(), 1e-12);
+  for (std::size_t v = 0; v < field.inner.positions.size(); ++v) {
+    EXPECT_NEAR(field.inner.value[v], field.base * (0.8 + 0.02 * field.inner.positions[v].x), 1e-9);
+  }
+  for (std::size_t e = 0; e < field.edges.size(); ++e) {
+    for (const double size : field.edges[e].value) EXPECT_LE(size, field.base);
+  }
+}
+
 }  // namespace
 }  // namespace qmcf

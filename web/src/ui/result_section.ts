@@ -126,12 +126,13 @@ function worstElement({ elementScaledJacobian }: MeshResult, zoomTo: (target: Ta
 /** How the faces were meshed, and each one that another method than the first had to mesh. */
 function methods({ report, faceNames }: MeshResult, zoomTo: (target: Target) => void): HTMLElement {
   const { faces } = report;
+  const sized = report.fittedSizes ? ' Sizes vary to fit the field.' : '';
   const fallen = faces.filter(({ reason }) => reason !== '');
   if (fallen.length === 0) {
     const how = faces[0]?.method === 'qmorph' ? 'by the original Q-Morph' : 'along the cross field';
     const text = faces.length === 1 ? `The face was meshed ${how}` : `All ${format.count(faces.length)} faces were meshed ${how}`;
     const narrow = faces.filter(({ method }) => method === 'strip').length;
-    return el('p', { class: 'facts' }, narrow === 0 ? `${text}.` : `${text}; narrow ones, ${format.count(narrow)}, as one row of elements.`);
+    return el('p', { class: 'facts' }, `${narrow === 0 ? text : `${text}; narrow ones, ${format.count(narrow)}, as one row of elements`}.${sized}`);
   }
   const items = fallen.map(({ face, method, reason }) =>
     el(
@@ -141,6 +142,6 @@ function methods({ report, faceNames }: MeshResult, zoomTo: (target: Target) => 
       `, ${methodNames[method]}: ${reason}`,
     ),
   );
-  const title = `${format.count(fallen.length)} of ${format.counted(faces.length, 'face')} meshed by a fallback`;
+  const title = `${format.count(fallen.length)} of ${format.counted(faces.length, 'face')} meshed by a fallback${sized && `.${sized}`}`;
   return el('details', { open: fallen.length <= 5 }, el('summary', {}, title), el('ul', { class: 'notes' }, ...items));
 }

@@ -2,7 +2,7 @@ import { button, el, setText, show, uniqueId } from '../dom.js';
 import * as format from '../format.js';
 import type { Session } from '../session.js';
 import type { Store } from '../state.js';
-import { numberField } from './fields.js';
+import { numberField, toggle } from './fields.js';
 
 const sliderMin = 100;
 const sliderMax = 100_000;
@@ -35,6 +35,11 @@ export function sizeSection(store: Store, session: Session): HTMLElement {
     onClear: () => session.changeSettings({ curvature: undefined }),
   });
   const sizes = sizesControl(store, session);
+  const fit = toggle(
+    'Fit sizes to the field',
+    (fitSizes) => session.changeSettings({ fitSizes }),
+    'Let sizes vary by up to 1.5, if that makes better elements: fewer rows end inside faces. Takes about twice as long.',
+  );
   const id = uniqueId();
   const slider = el('input', { id, type: 'range', min: 0, max: 1, step: 0.005, 'aria-label': 'Fineness' });
   slider.addEventListener('input', () => {
@@ -52,7 +57,8 @@ export function sizeSection(store: Store, session: Session): HTMLElement {
     slider.setAttribute('aria-valuetext', `about ${format.counted(settings.quads, 'quad')}`);
     size.element.dataset['leading'] = String(settings.sizedBy === 'size');
     quads.element.dataset['leading'] = String(settings.sizedBy === 'quads');
-    for (const input of [size.input, quads.input, chordError.input, slider]) {
+    fit.input.checked = settings.fitSizes;
+    for (const input of [size.input, quads.input, chordError.input, slider, fit.input]) {
       input.disabled = !model;
     }
   });
@@ -63,6 +69,7 @@ export function sizeSection(store: Store, session: Session): HTMLElement {
     slider,
     el('div', { class: 'ends', 'aria-hidden': 'true' }, el('span', {}, 'coarse'), el('span', {}, 'fine')),
     el('div', { class: 'pair' }, chordError.element, sizes),
+    fit.element,
   );
 }
 

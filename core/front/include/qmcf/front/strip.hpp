@@ -8,7 +8,7 @@
 namespace qmcf {
 
 /// Meshes a narrow face without vertices inside: the best way to join the nodes of its boundary by quadrilaterals and,
-/// where there is no other way, triangles: that of the least stripCost(). Nothing where the face is wider than an
+/// where there is no other way, triangles: that of the least shapeCost(). Nothing where the face is wider than an
 /// element on the whole, where it has handles, or where no such mesh has well-shaped elements everywhere.
 ///
 /// The loops are joined to one polygon along the shortest ways between them; the polygon is cut by dynamic programming
@@ -16,8 +16,5 @@ namespace qmcf {
 /// where the two sides run out of step it has no room for anything but triangles.
 /// Complexity O(n c^3) for n nodes with c chords each, after O(n^2) to find these.
 std::optional<FaceMesh> meshStrip(const Patch& patch);
-
-/// How far the elements of a mesh are from squares: the sum of (1 - elementShape())^2, and 2 for each triangle.
-double stripCost(const FaceMesh& mesh);
 
 }  // namespace qmcf

@@ -33,4 +33,9 @@ bool isWellShapedAround(const EditMesh& mesh, VertexId v, double least);
 /// for an equilateral triangle, negative where a corner is turned over; -1 where a side has no length.
 double elementShape(const FaceMesh& mesh, const Element& element);
 
+/// What a triangle adds to shapeCost().
+inline constexpr double kTriangleCost = 2.0;
+/// How far the elements of a mesh are from squares: the sum of (1 - elementShape())^2, and 2 for each triangle.
+double shapeCost(const FaceMesh& mesh);
+
 }  // namespace qmcf

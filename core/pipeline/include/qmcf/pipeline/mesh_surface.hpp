@@ -41,6 +41,10 @@ struct MeshOptions {
   /// elements holds with it, up to where three times the size would be needed elsewhere. Unset: curved faces have no
   /// smaller elements than flat ones.
   std::optional<double> curvature;
+  /// Let the size vary, within a factor of 1.5, to fit the cross field, if that makes better elements: fewer of their
+  /// rows end inside faces. The number of elements and the mean size are kept; it takes about twice as long. Needs mode
+  /// qmcf, and size where there are sizes.
+  bool fitSizes = false;
   double featureAngle = 30.0;  ///< Dihedral angle in degrees, (0, 180), from which an edge is sharp.
   Mode mode = Mode::qmcf;      ///< The advancing front.
   bool allQuad = false;        ///< No triangles: a mesh of twice the size with every element cut at its edges' middles.
@@ -105,6 +109,7 @@ struct MeshResult {
   std::vector<FaceReport> faces;
   std::int64_t fieldSingularities = 0;  ///< 0 in a mode without a cross field.
   SizeConformity sizeConformity;
+  bool fittedSizes = false;        ///< The sizes vary to fit the field (MeshOptions::fitSizes).
   SizeSources sizing;              ///< How many vertices of the repaired input have another size than `size`, and why.
   std::vector<double> vertexSize;  ///< Per vertex of the input: the target edge length there.
   std::int64_t refinedPlaces = 0;  ///< Where elements of the size asked for could not follow the part: smaller there.

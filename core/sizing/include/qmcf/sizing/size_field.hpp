@@ -12,6 +12,7 @@
 #include "qmcf/base/vec.hpp"
 #include "qmcf/mesh/triangle_mesh.hpp"
 #include "qmcf/sizing/inner_sizes.hpp"
+#include "qmcf/sizing/size_scale.hpp"
 #include "qmcf/topology/brep.hpp"
 
 namespace qmcf {
@@ -25,7 +26,7 @@ struct SizeLimit {
 
 /// How large the elements shall be. Lengths are in units of the model.
 struct SizingOptions {
-  std::optional<double> size;  ///< Edge length everywhere, > 0. Excludes `quads`.
+  std::optional<double> size;  ///< Edge length everywhere, > 0; with a scale the largest. Excludes `quads`.
   /// Number of elements to aim at, 1 to 10,000,000. Excludes `vertexSize`. Default 3000 when neither of these is set.
   std::optional<std::int64_t> quads;
   /// Per vertex of the mesh: the largest length there, finite and > 0; linear in the triangles. Empty: none. Without
@@ -34,6 +35,8 @@ struct SizingOptions {
   /// How far the middle of an element's edge may be from the surface where that is curved, and from a curved edge of
   /// the B-rep, > 0. Unset: whatever the size and the turns of the edges make of it.
   std::optional<double> curvature;
+  /// What the base size is multiplied by from place to place; nullptr: nothing.
+  const SizeScale* scale = nullptr;
   double gradation = 0.2;             ///< Largest |grad h|, in (0, 1].
   std::int32_t divisionsPerTurn = 8;  ///< Least number of edges in a full turn of a feature edge, >= 3.
   std::vector<SizeLimit> limits;      ///< Where the elements have to be smaller.
@@ -64,12 +67,13 @@ struct SizeSources {
 /// Target edge length over the repaired mesh. Inside a face it is the least of `inner`, the cones that rise with slope
 /// `gradation` from the values on the face's edges, at its vertices and at the limits, and base.
 struct SizeField {
-  double base = 0.0;              ///< The length asked for, or derived from the count.
+  double base = 0.0;              ///< The length asked for, or derived from the count: nowhere more.
+  double nominal = 0.0;           ///< The same in the mean over the scale: base, if there is none.
   double gradation = 0.2;         ///< Largest |grad h|.
   std::vector<double> value;      ///< Per vertex of the mesh, > 0.
   std::vector<EdgeSizes> edges;   ///< Per edge of the B-rep; finer than the edge's points where these are sparse.
   std::vector<SizeLimit> limits;  ///< As given, but graded.
-  InnerSizes inner;               ///< Empty where neither vertexSize nor curvature asks for anything.
+  InnerSizes inner;               ///< Empty where neither vertexSize nor curvature nor a scale asks for anything.
   SizeSources sources;
   std::vector<std::int32_t> minimumDivisions;  ///< Per edge of the B-rep, >= 1: what its turns ask for.
   /// Largest distance of an edge from its chords, in units of the size there and of chordSize, whichever is less.

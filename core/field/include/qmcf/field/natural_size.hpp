@@ -1,0 +1,22 @@
+#pragma once
+
+#include <vector>
+
+#include "qmcf/base/progress.hpp"
+#include "qmcf/base/result.hpp"
+#include "qmcf/field/cross_field.hpp"
+#include "qmcf/mesh/patch.hpp"
+
+namespace qmcf {
+
+/// The element sizes that suit the crosses: a mesh of squares can follow a field that turns only if its elements grow
+/// to the outside of the bend, grad(log h) = -rotated(grad(angle)). Where no size does (the field is not conformal, or
+/// faces that share an edge ask for different ones) the least squares over all patches. Rows of such elements need not
+/// end inside a face. E6 of docs/algorithm.md.
+/// fields: one per patch; a patch with an empty one asks for nothing. Patches share the values at the nodes of their
+/// boundaries. Returns, per patch and vertex, log h up to one constant, whose mean over the area is 0.
+/// Errors: cancelled, internal (factorisation failed).
+Result<std::vector<IdMap<VertexId, double>>> naturalSizes(const std::vector<Patch>& patches,
+                                                          const std::vector<CrossField>& fields, Progress& progress);
+
+}  // namespace qmcf

@@ -1,0 +1,65 @@
+#include "natural_scale.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+#include "qmcf/base/math.hpp"
+#include "qmcf/field/natural_size.hpp"
+
+namespace qmcf {
+namespace {
+
+/// How far the logarithm goes from its mean, either way. Twice as much made meshes hardly more regular, and nobody who
+/// asks for a number of elements expects some to be far larger than others.
+constexpr double kMostLog = 0.2;
+/// Variation of the logarithm that is round-off.
+constexpr double kNoVariation = 1e-3;
+
+/// Bends towards the bounds, with slope 1 at 0: tanh.
+double bounded(double log) {
+  const double e = math::exp(-2.0 * std::fabs(log) / kMostLog);
+  return (log < 0.0 ? -kMostLog : kMostLog) * (1.0 - e) / (1.0 + e);
+}
+
+}  // namespace
+
+Result<SizeScale> naturalScale(const Brep& brep, const PreparedFaces& prepared, Progress& progress) {
+  const std::vector<Patch>& patches = prepared.patches;
+  std::vector<CrossField> fields = prepared.fields;
+  // A closed smooth face asks for nothing: it has no edges whose rows of elements would have to end.
+  for (std::size_t f = 0; f < fields.size(); ++f) {
+    if (brep.faces[f].loops.empty()) fields[f] = CrossField{};
+  }
+  auto natural = naturalSizes(patches, fields, progress);
+  if (!natural) return natural.error();
+  auto& logs = natural.value();
+  double least = kMostLog;
+  double most = -kMostLog;
+  for (auto& ofPatch : logs) {
+    for (double& log : ofPatch.raw()) {
+      log = bounded(log);
+      least = std::min(least, log);
+      most = std::max(most, log);
+    }
+  }
+  if (most - least < kNoVariation) return SizeScale();
+  std::vector<SizeScale::Face> faces;
+  for (std::size_t p = 0; p < patches.size(); ++p) {
+    const Surface& surface = patches[p].surface;
+    SizeScale::Face& face = faces.emplace_back();
+    for (std::size_t v = 0; v < surface.vertexCount(); ++v) {
+      face.positions.push_back(surface.position(VertexId(v)));
+      face.factor.push_back(math::exp(logs[p][VertexId(v)] - most));
+    }
+    for (const TriangleId t : surface.triangles()) {
+      const auto corners = surface.corners(t);
+      face.triangles.push_back({corners[0].value, corners[1].value, corners[2].value});
+    }
+  }
+  return SizeScale(std::move(faces));
+}
+
+}  // namespace qmcf

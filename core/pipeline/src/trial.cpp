@@ -1,0 +1,52 @@
+#include "trial.hpp"
+
+#include <string>
+#include <utility>
+
+namespace qmcf {
+namespace {
+
+/// Two faces between the same edges that are nearer to each other than this, in units of the base, get one mesh.
+constexpr double kTellApart = 0.25;
+
+CoveredFaces noneCovered(const Brep& brep) {
+  return {std::vector<std::int32_t>(brep.faces.size(), kNone), std::vector<std::uint8_t>(brep.faces.size(), 0)};
+}
+
+MeshedFace omittedFace(std::int32_t face, std::int32_t below) {
+  MeshedFace omitted;
+  omitted.report.face = face;
+  omitted.report.method = "omitted";
+  omitted.report.reason = "it lies on face " + std::to_string(below) + ", nearer than elements of this size can tell";
+  return omitted;
+}
+
+}  // namespace
+
+Result<Trial> makeTrial(const Part& part, const MeshOptions& options, const SizeScale* scale, Progress& progress) {
+  auto prepared = prepareFaces(part.mesh, part.brep, options, scale, progress);
+  if (!prepared) return prepared.error();
+  // Elements that are cut up have a vertex of their own each, so that those of two layers always are told apart.
+  CoveredFaces covered = options.allQuad
+                             ? noneCovered(part.brep)
+                             : coveredFaces(part, kTellApart * prepared.value().size.base);
+  Trial trial{std::move(prepared).value(), std::move(covered), std::vector<MeshedFace>(part.brep.faces.size())};
+  if (const auto error = meshChanged(part, trial, progress)) return *error;
+  return trial;
+}
+
+std::optional<Error> meshChanged(const Part& part, Trial& trial, Progress& progress) {
+  for (const std::int32_t face : trial.prepared.changed) {
+    const auto f = static_cast<std::size_t>(face);
+    if (trial.covered.below[f] != kNone) trial.faces[f] = omittedFace(face, trial.covered.below[f]);
+  }
+  const auto mesh = [&](std::int32_t face, Progress& own) -> std::optional<Error> {
+    auto meshed = meshFace(part, trial.prepared, face, own);
+    if (!meshed) return meshed.error();
+    trial.faces[static_cast<std::size_t>(face)] = std::move(meshed).value();
+    return std::nullopt;
+  };
+  return forEachFace(part, trial, trial.prepared.changed, progress, mesh);
+}
+
+}  // namespace qmcf
