@@ -102,7 +102,11 @@ Soup slivers(std::uint64_t seed, std::int32_t count) {
     soup.positions.push_back(first);
     soup.positions.push_back(first + along);
     soup.positions.push_back(first + along * random.uniform(0.0, 1.0) + randomPoint(random, thickness));
-    soup.triangles.push_back({3 * t, 3 * t + 1, 3 * t + 2});
+    soup.triangles.push_back({6 * t, 6 * t + 1, 6 * t + 2});
+    // A better one nearly touches its first side, so that little is enough to leave it out.
+    soup.positions.push_back(first + along * 0.5 + randomPoint(random, 1e-9));
+    for (int c = 0; c < 2; ++c) soup.positions.push_back(soup.positions.back() + randomPoint(random, 0.3));
+    soup.triangles.push_back({6 * t + 3, 6 * t + 4, 6 * t + 5});
   }
   return soup;
 }
@@ -113,7 +117,7 @@ TEST(TriangleBvh, LeavesOutNoSliver) {
   Random random(32);
   for (int i = 0; i < 400; ++i) {
     // Every other query lies on a triangle or next to it.
-    const auto& on = soup.triangles[static_cast<std::size_t>(i)];
+    const auto& on = soup.triangles[static_cast<std::size_t>(2 * i)];
     const double step = i % 4 == 0 ? 0.0 : 1e-9;
     const Vec3 inside =
         (soup.positions[static_cast<std::size_t>(on[0])] + soup.positions[static_cast<std::size_t>(on[1])]) * 0.5;
