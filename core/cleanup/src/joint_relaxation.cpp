@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <utility>
 
+#include "lift_worst.hpp"
 #include "qmcf/mesh/edit_mesh.hpp"
 #include "qmcf/mesh/element_shape.hpp"
 #include "qmcf/mesh/extract.hpp"
@@ -18,6 +19,11 @@ namespace {
 
 /// Relaxation may make elements that are better than this worse.
 constexpr double kEnough = 0.6;
+/// Elements that are worse in the end are made as good as they can be.
+constexpr double kLifted = 0.6;
+constexpr int kLiftRounds = 3;
+constexpr std::array<double, 3> kLifts{0.2, 0.1, 0.05};  ///< Steps of nodes for that, in element sizes.
+constexpr double kGain = 1e-3;                           ///< The least that is worth a step.
 /// A node moves at most so far towards the next one at a time, in units of their distance.
 constexpr double kLongestStep = 0.4;
 /// The tangent at a node is that of the chord between points so far towards its neighbours.
@@ -130,11 +136,33 @@ class JointRelaxation {
         meshes_[f].commit();
       }
     }
+    if (!liftAll(progress)) return cancelledError();
     for (std::size_t f = 0; f < meshes_.size(); ++f) *faces_[f].mesh = extract(meshes_[f], faces_[f].mesh->patchVertex);
     return countMoved(before);
   }
 
  private:
+  /// Makes the worst elements better. Returns false when progress asked to stop.
+  bool liftAll(Progress& progress) {
+    std::vector<WorstLift> lifts;
+    for (std::size_t f = 0; f < meshes_.size(); ++f) lifts.emplace_back(meshes_[f], targetOf(f), kLifted);
+    for (int round = 0; round < kLiftRounds; ++round) {
+      if (!progress.report(Stage::cleanup, 1.0)) return false;
+      bool isStill = true;
+      for (std::size_t f = 0; f < meshes_.size(); ++f) {
+        if (!faces_[f].held && lifts[f].run()) isStill = false;
+      }
+      for (const Slider& slider : sliders_) {
+        if (!lift(slider)) continue;
+        isStill = false;
+        for (const Occurrence& at : occurrences_[nodeOf(slider)]) lifts[at.face].wakeAround(at.vertex);
+      }
+      for (EditMesh& mesh : meshes_) mesh.commit();
+      if (isStill) break;
+    }
+    return true;
+  }
+
   [[nodiscard]] std::size_t nodeOf(const Slider& slider) const {
     return static_cast<std::size_t>(edges_[slider.edge].nodes[slider.index]);
   }
@@ -175,35 +203,67 @@ class JointRelaxation {
     return {before, s[slider.index + 1]};
   }
 
-  /// Moves a node along its edge, in all faces, unless that makes an element or a chord worse. Returns whether it
-  /// moved.
+  /// How far a node may go back and ahead along its edge in one step.
+  [[nodiscard]] std::array<double, 2> room(const Slider& slider) const {
+    const std::vector<double>& places = places_[slider.edge];
+    const double s = places[slider.index];
+    const auto [before, after] = neighbours(places, slider);
+    const auto [firstBefore, firstAfter] = neighbours(edges_[slider.edge].arcLength, slider);
+    const double first = edges_[slider.edge].arcLength[slider.index];
+    return {std::clamp(s - before - kShortest * (first - firstBefore), 0.0, kLongestStep * (s - before)),
+            std::clamp(after - s - kShortest * (firstAfter - first), 0.0, kLongestStep * (after - s))};
+  }
+
+  /// Moves a node along its edge to where its elements want it. Returns whether it moved.
   bool slide(const Slider& slider) {
     const std::size_t node = nodeOf(slider);
     const std::vector<Occurrence>& occurrences = occurrences_[node];
     if (occurrences.empty()) return false;
     const EdgeCurve& curve = edges_[slider.edge].curve;
-    std::vector<double>& places = places_[slider.edge];
-    const double s = places[slider.index];
-    const auto [before, after] = neighbours(places, slider);
-    const auto [firstBefore, firstAfter] = neighbours(edges_[slider.edge].arcLength, slider);
-    const double first = edges_[slider.edge].arcLength[slider.index];
-    const double back = std::clamp(s - before - kShortest * (first - firstBefore), 0.0, kLongestStep * (s - before));
-    const double ahead = std::clamp(after - s - kShortest * (firstAfter - first), 0.0, kLongestStep * (after - s));
+    const double s = places_[slider.edge][slider.index];
+    const auto [before, after] = neighbours(places_[slider.edge], slider);
+    const auto [back, ahead] = room(slider);
     const Vec3 tangent =
         normalized(pointAt(curve, s + kTangentReach * (after - s)) - pointAt(curve, s - kTangentReach * (s - before)));
     const double size = sizeAt(occurrences.front());
     const double step = std::clamp(dot(wanted(occurrences) - nodes_[node], tangent), -back, ahead);
-    if (!(std::abs(step) > kStill * size)) return false;
-    const double allowed = std::max({departure(curve, before, s), departure(curve, s, after), kNear * size});
-    if (departure(curve, before, s + step) > allowed || departure(curve, s + step, after) > allowed) return false;
+    return std::abs(step) > kStill * size && move(slider, step, std::min(kEnough, worstAround(occurrences)));
+  }
 
+  /// Moves a node along its edge to where the worst of its elements is better, if that is a bad one. Returns whether it
+  /// moved.
+  bool lift(const Slider& slider) {
+    const std::vector<Occurrence>& occurrences = occurrences_[nodeOf(slider)];
+    if (occurrences.empty()) return false;
     const double worst = worstAround(occurrences);
+    if (worst >= kLifted) return false;
+    const double size = sizeAt(occurrences.front());
+    const auto [back, ahead] = room(slider);
+    for (const double length : kLifts) {
+      for (const double step : {-std::min(length * size, back), std::min(length * size, ahead)}) {
+        if (std::abs(step) > kStill * size && move(slider, step, worst + kGain)) return true;
+      }
+    }
+    return false;
+  }
+
+  /// Moves a node along its edge, in all faces, unless an element is worse than `least` then, or a chord departs
+  /// further from the edge than before. Returns whether it moved.
+  bool move(const Slider& slider, double step, double least) {
+    const std::size_t node = nodeOf(slider);
+    const std::vector<Occurrence>& occurrences = occurrences_[node];
+    const EdgeCurve& curve = edges_[slider.edge].curve;
+    const double s = places_[slider.edge][slider.index];
+    const auto [before, after] = neighbours(places_[slider.edge], slider);
+    const double near = kNear * sizeAt(occurrences.front());
+    const double allowed = std::max({departure(curve, before, s), departure(curve, s, after), near});
+    if (departure(curve, before, s + step) > allowed || departure(curve, s + step, after) > allowed) return false;
     std::vector<EditMesh::Vertex> old;
     for (const Occurrence& at : occurrences) {
       old.push_back(meshes_[at.face].vertex(at.vertex));
       meshes_[at.face].setVertex(at.vertex, onFace(at, pointAt(curve, s + step)));
     }
-    if (worstAround(occurrences) < std::min(kEnough, worst)) {
+    if (worstAround(occurrences) < least) {
       for (std::size_t i = 0; i < old.size(); ++i)
         meshes_[occurrences[i].face].setVertex(occurrences[i].vertex, old[i]);
       return false;

@@ -27,9 +27,8 @@ Result<Trial> makeTrial(const Part& part, const MeshOptions& options, const Size
   auto prepared = prepareFaces(part.mesh, part.brep, options, scale, progress);
   if (!prepared) return prepared.error();
   // Elements that are cut up have a vertex of their own each, so that those of two layers always are told apart.
-  CoveredFaces covered = options.allQuad
-                             ? noneCovered(part.brep)
-                             : coveredFaces(part, kTellApart * prepared.value().size.base);
+  CoveredFaces covered =
+      options.allQuad ? noneCovered(part.brep) : coveredFaces(part, kTellApart * prepared.value().size.base);
   Trial trial{std::move(prepared).value(), std::move(covered), std::vector<MeshedFace>(part.brep.faces.size())};
   if (const auto error = meshChanged(part, trial, progress)) return *error;
   return trial;

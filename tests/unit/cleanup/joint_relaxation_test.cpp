@@ -8,6 +8,7 @@
 
 #include "cleanup/grid_mesh.hpp"
 #include "field/patches.hpp"
+#include "qmcf/mesh/element_shape.hpp"
 #include "qmcf/spatial/surface_tree.hpp"
 
 namespace qmcf {
@@ -52,10 +53,12 @@ class Square {
     nodes[v] = mesh.positions[v] = edge.curve.at(edge.arcLength[index]);
   }
 
-  std::int64_t relax() {
-    std::vector<JointFace> faces{{&mesh, &node, &patch, &tree}};
+  std::int64_t relax(int rounds = JointRelaxationOptions{}.rounds, bool held = false) {
+    std::vector<JointFace> faces{{&mesh, &node, &patch, &tree, held}};
     SilentProgress silent;
-    const auto moved = relaxTogether(faces, edges, nodes, JointRelaxationOptions{}, silent);
+    JointRelaxationOptions options;
+    options.rounds = rounds;
+    const auto moved = relaxTogether(faces, edges, nodes, options, silent);
     EXPECT_TRUE(moved.ok());
     return moved.ok() ? moved.value() : -1;
   }
@@ -89,6 +92,32 @@ TEST(RelaxTogether, SlidesNodesBackWhereTheElementsWantThem) {
     if (sheared.node[n] != kNone) {
       EXPECT_EQ(sheared.nodes[n], sheared.mesh.positions[n]);
     }
+  }
+}
+
+TEST(RelaxTogether, MakesTheWorstElementsBetterInTheEnd) {
+  const auto worst = [](const FaceMesh& mesh) {
+    double shape = 1.0;
+    for (const Element& element : mesh.elements) shape = std::min(shape, elementShape(mesh, element));
+    return shape;
+  };
+  // A vertex inside, and a node on an edge, are far from where they should be.
+  for (const bool onEdge : {false, true}) {
+    Square square;
+    if (onEdge) {
+      square.shift(0, 3, 0.8);
+      square.mesh.positions[static_cast<std::size_t>(square.vertexAt({0.5, 1.0 / kCells, 0.0}))].x -= 0.7 / kCells;
+    } else {
+      square.mesh.positions[static_cast<std::size_t>(square.vertexAt({0.5, 0.5, 0.0}))] +=
+          Vec3{0.6, 0.6, 0.0} / static_cast<double>(kCells);
+    }
+    const double before = worst(square.mesh);
+    EXPECT_LT(before, 0.6) << onEdge;
+    Square held = square;
+    held.relax(0, true);
+    EXPECT_EQ(worst(held.mesh), before) << onEdge;
+    square.relax(0);
+    EXPECT_GT(worst(square.mesh), 0.6) << onEdge;
   }
 }
 

@@ -9,9 +9,7 @@ namespace {
 
 /// A square of the given side in the plane z = 0, with factors at its corners.
 SizeScale::Face square(double side, double left, double right) {
-  return {{{0, 0, 0}, {side, 0, 0}, {side, side, 0}, {0, side, 0}},
-          {{0, 1, 2}, {0, 2, 3}},
-          {left, right, right, left}};
+  return {{{0, 0, 0}, {side, 0, 0}, {side, side, 0}, {0, side, 0}}, {{0, 1, 2}, {0, 2, 3}}, {left, right, right, left}};
 }
 
 TEST(SizeScale, OfNothingIsOneEverywhere) {

@@ -33,15 +33,15 @@ struct JointEdge {
 
 struct JointRelaxationOptions {
   double sizeScale = 1.0;  ///< Element length in units of the patches' sizes, > 0.
-  int rounds = 6;          ///< Of nodes and what is near them, 0 to 50.
+  int rounds = 6;          ///< Of nodes and what is near them, 0 to 50; 0: only the worst elements are seen to.
 };
 
 /// Relaxes the meshes of all faces together: nodes slide along their edges to where the elements of all faces around
 /// want them, and the vertices near them follow on their faces. No element becomes worse than it was and than
 /// relax() tolerates; no chord departs further from its edge than before or than a twentieth of the element size; no
-/// division becomes shorter than half of what it was.
-/// nodes: positions of the shared nodes, in and out. Returns how many nodes moved by more than a tenth of the element
-/// size. Errors: cancelled.
+/// division becomes shorter than half of what it was. In the end what is around an element with a shape below 0.6 moves
+/// to where the worst element is best. nodes: positions of the shared nodes, in and out. Returns how many nodes moved
+/// by more than a tenth of the element size. Errors: cancelled.
 Result<std::int64_t> relaxTogether(std::vector<JointFace>& faces, const std::vector<JointEdge>& edges,
                                    std::vector<Vec3>& nodes, const JointRelaxationOptions& options, Progress& progress);
 
