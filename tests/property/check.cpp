@@ -163,7 +163,8 @@ std::string describe(const Case& made) {
          std::to_string(*made.options.size) + ", " + std::string(modeName(made.options.mode)) +
          (made.options.allQuad ? ", quadrilaterals only" : "") +
          (made.options.curvature ? ", chord error " + std::to_string(*made.options.curvature) : "") +
-         (made.options.sizes.empty() ? "" : ", sizes at vertices");
+         (made.options.sizes.empty() ? "" : ", sizes at vertices") +
+         (made.options.fitSizes ? ", sizes that fit the field" : "");
 }
 
 }  // namespace qmcf::property

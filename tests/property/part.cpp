@@ -206,6 +206,7 @@ Case makeCase(std::uint64_t seed, const Limits& limits) {
       made.options.sizes.push_back(size * pickLogarithmic(random, 0.3, 3.0));
     }
   }
+  made.options.fitSizes = made.options.mode == Mode::qmcf && pick(random, 0, 3) == 0;
   return made;
 }
 

@@ -68,8 +68,8 @@ function parseCommandLine() {
 }
 
 /** Meshes and judges; resolves to { valid, quads, triangles, means: [JR, AR, OQ], gauss, why }. */
-async function measure(options, part, mode, quads, out) {
-  const args = ['mesh', part, '-o', out, '--quads', String(quads), '--mode', mode, '--quiet'];
+async function measure(options, part, how, quads, out) {
+  const args = ['mesh', part, '-o', out, '--quads', String(quads), ...how, '--quiet'];
   const run = await runMeasured(options.qmcf, args, CPU_SECONDS);
   if (run.exit !== 0) return { valid: false, why: run.stderr.trim() || `ended with ${run.signal ?? run.exit}` };
   const verdict = await judgeMesh(options, part, out);
@@ -141,13 +141,15 @@ async function main() {
     const rows = [HEADER];
     for (const part of parts) {
       const meshOf = (mode) => join(folder, `${mode}.obj`);
-      const [qmcf, qmorph] = [await measure(options, part.file, 'qmcf', quads, meshOf('qmcf')),
-        await measure(options, part.file, 'qmorph', quads, meshOf('qmorph'))];
+      const qmcf = await measure(options, part.file, ['--mode', 'qmcf'], quads, meshOf('qmcf'));
+      const fitted = await measure(options, part.file, ['--mode', 'qmcf', '--fit-sizes'], quads, meshOf('fitted'));
+      const qmorph = await measure(options, part.file, ['--mode', 'qmorph'], quads, meshOf('qmorph'));
       if (options.write && tables.length === 0) ['qmcf', 'qmorph'].forEach((mode) => drawMesh(part, mode, meshOf(mode)));
-      rows.push(measuredRow(part.name, 'QMCF', qmcf), paperRow("paper's QMCF", part.paper.qmcf),
+      rows.push(measuredRow(part.name, 'QMCF', qmcf), measuredRow('', 'QMCF, fitted sizes', fitted),
+        paperRow("paper's QMCF", part.paper.qmcf),
         measuredRow('', 'Q-Morph', qmorph), paperRow("paper's Q-Morph", part.paper.qmorph));
       missing.push(...shortcomings(part, qmcf, qmorph));
-      valid &&= qmcf.valid && qmorph.valid;
+      valid &&= qmcf.valid && fitted.valid && qmorph.valid;
     }
     console.log(`About ${quads} elements; means over the quads, best 1`);
     printTable(rows);
