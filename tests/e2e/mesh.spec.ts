@@ -113,6 +113,21 @@ test('a chord error makes smaller elements on curved faces, until it is cleared'
   expect(counts[2]).toBe(counts[0]);
 });
 
+test('sizes fit the field where that is asked for and better', async ({ page }) => {
+  await page.goto('./');
+  const app = new App(page);
+  await app.openSample('wavy_sheet.obj');
+  const result = page.getByRole('region', { name: 'Result' });
+  const fit = page.getByLabel('Fit sizes to the field');
+  for (const isOn of [true, false]) {
+    await fit.setChecked(isOn);
+    await app.count.fill('800');
+    await app.generate.click();
+    await expect(app.status).toHaveText(/ quads? .*in .* s\.$/);
+    await expect(result.getByText('Sizes vary to fit the field.')).toHaveCount(isOn ? 1 : 0);
+  }
+});
+
 test('sizes at the vertices come from a file, until they are cleared or a count is asked for', async ({ page }) => {
   await page.goto('./');
   const app = new App(page);

@@ -250,6 +250,16 @@ test('a chord error makes the same smaller elements as in the native program', a
   assert.ok(fine.report.quality.meanDistance < plain.report.quality.meanDistance / 2);
 });
 
+test('sizes that fit the field are those of the native program', async () => {
+  const output = inProject('fitted.native.obj');
+  const run = native('mesh', `${root}/samples/wavy_sheet.obj`, '-o', output, '--quads', '800', '--fit-sizes', '--quiet');
+  assert.equal(run.status, 0, run.stderr);
+  const fitted = await mesher.mesh(sample('wavy_sheet.obj'), { quads: 800, fitSizes: true });
+  assert.ok(Buffer.from(await fitted.file('obj')).equals(readFileSync(output)), 'the files differ');
+  assert.equal(fitted.report.fittedSizes, true);
+  await assert.rejects(mesher.mesh(sample('wavy_sheet.obj'), { fitSizes: true, mode: 'qmorph' }), withCode('invalidOption'));
+});
+
 test('what is no model at all is refused', async () => {
   await assert.rejects(mesher.mesh({ positions: [0, 0, 0], triangles: [0, 0, 0] }), withCode('malformedInput'));
   await assert.rejects(mesher.mesh(undefined), withCode('malformedInput'));
