@@ -38,10 +38,12 @@ std::optional<Error> validateSizes(const MeshOptions& options) {
         "Give either sizes or quads, not both: the sizes say how many elements there are. size may go with them.");
   }
   if (options.fitSizes && options.mode != Mode::qmcf) {
-    return invalid("fitSizes needs the mode qmcf: the other one asks no cross field that sizes could fit.");
+    return invalid("Fitting sizes to the field needs the mode qmcf: the other one asks no cross field.");
   }
   if (options.fitSizes && !options.sizes.empty() && !options.size) {
-    return invalid("fitSizes goes with size or quads, not with sizes alone: these say what they are themselves.");
+    return invalid(
+        "Fitting sizes to the field goes with size or quads, not with sizes alone: these say what they are "
+        "themselves.");
   }
   for (std::size_t i = 0; i < options.sizes.size(); ++i) {
     if (isLength(options.sizes[i])) continue;
