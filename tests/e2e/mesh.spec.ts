@@ -126,6 +126,10 @@ test('sizes fit the field where that is asked for and better', async ({ page }) 
     await expect(app.status).toHaveText(/ quads? .*in .* s\.$/);
     await expect(result.getByText('Sizes vary to fit the field.')).toHaveCount(isOn ? 1 : 0);
   }
+  // The original has no field that sizes could fit.
+  await page.getByText('Features and directions').click();
+  await page.getByLabel('Advancing front').selectOption('qmorph');
+  await expect(fit).toBeDisabled();
 });
 
 test('sizes at the vertices come from a file, until they are cleared or a count is asked for', async ({ page }) => {

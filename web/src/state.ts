@@ -25,7 +25,7 @@ export interface Settings {
   readonly sizes: SizesFile | undefined;
   /** Chord error in units of the model; undefined: whatever the size makes of it. */
   readonly curvature: number | undefined;
-  /** Let sizes vary to fit the field; without effect in the mode that has none, and with the sizes of a file. */
+  /** Let sizes vary to fit the field, where they can. */
   readonly fitSizes: boolean;
   readonly featureAngle: number;
   readonly mode: Mode;
@@ -133,19 +133,24 @@ export const initialState: State = {
   galleryOpen: true,
 };
 
+/** Whether sizes can fit the field: one mode has none, and the sizes of a file are what they are. */
+export function canFit({ mode, sizedBy }: Settings): boolean {
+  return mode === 'qmcf' && sizedBy !== 'sizes';
+}
+
 /** The options for the core that follow from the controls. */
 export function optionsOf(settings: Settings): MeshOptions {
   const { sizedBy, size, quads, sizes, fitSizes, ...others } = settings;
-  const rest = { ...others, fitSizes: fitSizes && settings.mode === 'qmcf' && sizedBy !== 'sizes' };
+  const rest = { ...others, fitSizes: fitSizes && canFit(settings) };
   if (sizedBy === 'quads') {
     return { ...rest, quads };
   }
   return { ...rest, ...(sizes && { sizes: sizes.values }), ...(sizedBy === 'size' && { size }) };
 }
 
-/** The same for the field, which is there in one mode only. */
+/** The same for the field, which is there in one mode only, and there before sizes can fit it. */
 export function fieldSettings(settings: Settings): Settings {
-  return { ...settings, mode: 'qmcf' };
+  return { ...settings, mode: 'qmcf', fitSizes: false };
 }
 
 /** Equal for settings that give equal results. */

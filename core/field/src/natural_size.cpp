@@ -108,10 +108,10 @@ Result<std::vector<IdMap<VertexId, double>>> naturalSizes(const std::vector<Patc
   Eigen::SparseMatrix<double> matrix(unknowns.count(), unknowns.count());
   matrix.setFromTriplets(system.entries.begin(), system.entries.end());
   const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(matrix);
-  if (factor.info() != Eigen::Success) {
+  const Eigen::VectorXd logs = factor.solve(system.side);
+  if (factor.info() != Eigen::Success || !logs.allFinite()) {
     return Error{ErrorCode::internal, "The sizes that fit the cross field could not be computed.", {}};
   }
-  const Eigen::VectorXd logs = factor.solve(system.side);
   const double mean = logs.dot(system.area) / area;
   std::vector<IdMap<VertexId, double>> result(patches.size());
   for (std::size_t p = 0; p < patches.size(); ++p) {

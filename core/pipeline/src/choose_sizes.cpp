@@ -82,14 +82,19 @@ class SizeChoice {
     return sum / std::sqrt(std::max(count(trial), 1.0));
   }
 
+  /// There is a mesh already: what else goes wrong is no reason to give that up.
+  static std::optional<Error> onlyCancelled(const Error& error) {
+    return error.code == ErrorCode::cancelled ? std::optional(error) : std::nullopt;
+  }
+
   /// Tries sizes that fit the field.
   std::optional<Error> fit() {
     auto scale = naturalScale(part_.brep, chosen_.trial.prepared, progress_);
-    if (!scale) return scale.error();
+    if (!scale) return onlyCancelled(scale.error());
     if (scale.value().empty()) return std::nullopt;
     // For the same number as the first trial, or one of both would have more elements where they are needed.
     auto fitted = makeTrial(part_, options_, &scale.value(), progress_);
-    if (!fitted) return fitted.error();
+    if (!fitted) return onlyCancelled(fitted.error());
     const auto before = badness(chosen_.trial);
     if (!before) return before.error();
     const auto after = badness(fitted.value());

@@ -3,17 +3,13 @@
 #include <cmath>
 
 #include "field/patches.hpp"
+#include "field/solve.hpp"
 #include "qmcf/field/cross_field.hpp"
 
 namespace qmcf {
 namespace {
 
-CrossField solve(const Patch& patch, const FieldOptions& options = {}) {
-  SilentProgress progress;
-  Result<CrossField> field = computeCrossField(patch, {}, options, progress);
-  EXPECT_TRUE(field.ok());
-  return std::move(field).value();
-}
+using testing::solve;
 
 TEST(ClosedField, OfSphereHasEightSingularities) {
   const Patch patch = testing::makeSphere(16);

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "field/patches.hpp"
+#include "field/solve.hpp"
 #include "qmcf/base/random.hpp"
 #include "qmcf/field/cross_field.hpp"
 
@@ -16,11 +17,9 @@ namespace {
 constexpr double kDegree = std::numbers::pi / 180.0;
 
 CrossField solve(const Patch& patch, const FieldOptions& options = {}) {
-  SilentProgress progress;
-  Result<CrossField> field = computeCrossField(patch, {}, options, progress);
-  EXPECT_TRUE(field.ok());
-  EXPECT_EQ(gaussBonnetDefect(patch, field.value()), 0);
-  return std::move(field).value();
+  CrossField field = testing::solve(patch, options);
+  EXPECT_EQ(gaussBonnetDefect(patch, field), 0);
+  return field;
 }
 
 /// Angle in degrees between the field and the direction given, at the centre of a triangle.

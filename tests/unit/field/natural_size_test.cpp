@@ -8,16 +8,12 @@
 #include <utility>
 
 #include "field/patches.hpp"
+#include "field/solve.hpp"
 
 namespace qmcf {
 namespace {
 
-CrossField solve(const Patch& patch) {
-  SilentProgress progress;
-  Result<CrossField> field = computeCrossField(patch, {}, {}, progress);
-  EXPECT_TRUE(field.ok());
-  return std::move(field).value();
-}
+using testing::solve;
 
 std::vector<IdMap<VertexId, double>> sizesOf(const std::vector<Patch>& patches) {
   SilentProgress progress;

@@ -7,18 +7,14 @@
 #include <numbers>
 
 #include "field/patches.hpp"
+#include "field/solve.hpp"
 #include "qmcf/field/cross_field.hpp"
 #include "qmcf/topology/brep.hpp"
 
 namespace qmcf {
 namespace {
 
-CrossField solve(const Patch& patch, const FieldOptions& options = {}) {
-  SilentProgress progress;
-  Result<CrossField> field = computeCrossField(patch, {}, options, progress);
-  EXPECT_TRUE(field.ok());
-  return std::move(field).value();
-}
+using testing::solve;
 
 TEST(PlanarField, HasNoSingularityWhereRightAnglesNeedNone) {
   const auto flat = [](double x, double y) { return Vec3{x, y, 0.0}; };

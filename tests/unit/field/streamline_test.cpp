@@ -6,16 +6,12 @@
 #include <numbers>
 
 #include "field/patches.hpp"
+#include "field/solve.hpp"
 
 namespace qmcf {
 namespace {
 
-CrossField solve(const Patch& patch) {
-  SilentProgress progress;
-  Result<CrossField> field = computeCrossField(patch, {}, {}, progress);
-  EXPECT_TRUE(field.ok());
-  return std::move(field).value();
-}
+using testing::solve;
 
 TEST(Streamline, CrossesSquareStraight) {
   const Patch patch = testing::makeSquare(10);

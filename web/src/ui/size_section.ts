@@ -1,7 +1,7 @@
 import { button, el, setText, show, uniqueId } from '../dom.js';
 import * as format from '../format.js';
 import type { Session } from '../session.js';
-import type { Store } from '../state.js';
+import { canFit, type Store } from '../state.js';
 import { numberField, toggle } from './fields.js';
 
 const sliderMin = 100;
@@ -58,9 +58,10 @@ export function sizeSection(store: Store, session: Session): HTMLElement {
     size.element.dataset['leading'] = String(settings.sizedBy === 'size');
     quads.element.dataset['leading'] = String(settings.sizedBy === 'quads');
     fit.input.checked = settings.fitSizes;
-    for (const input of [size.input, quads.input, chordError.input, slider, fit.input]) {
+    for (const input of [size.input, quads.input, chordError.input, slider]) {
       input.disabled = !model;
     }
+    fit.input.disabled = !model || !canFit(settings);
   });
   return el(
     'section',

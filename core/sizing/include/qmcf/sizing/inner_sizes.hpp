@@ -21,8 +21,7 @@ struct InnerSizes {
   [[nodiscard]] bool empty() const { return value.empty(); }
 };
 
-/// The integral of 1 / h^2 over a triangle of the given area with the sizes h at its corners, linear between. \pre h >
-/// 0
+/// The integral of 1 / h^2 over a triangle of the given area with the sizes h > 0 at its corners, linear between.
 double countInTriangle(const std::array<double, 3>& size, double area);
 
 /// The same over all triangles: about the number of quads of these sizes.
