@@ -145,6 +145,10 @@ std::optional<Error> assign(bool& option, std::string_view name, const val& give
   return std::nullopt;
 }
 
+std::optional<Error> assign(std::optional<bool>& option, std::string_view name, const val& given) {
+  return assign(option.emplace(), name, given);
+}
+
 std::optional<Error> assign(Mode& option, std::string_view name, const val& given) {
   const std::string word = given.isString() ? given.as<std::string>() : std::string();
   if (word != "qmcf" && word != "qmorph") {

@@ -252,11 +252,14 @@ test('a chord error makes the same smaller elements as in the native program', a
 
 test('sizes that fit the field are those of the native program', async () => {
   const output = inProject('fitted.native.obj');
-  const run = native('mesh', `${root}/samples/wavy_sheet.obj`, '-o', output, '--quads', '800', '--fit-sizes', '--quiet');
+  const run = native('mesh', `${root}/samples/wavy_sheet.obj`, '-o', output, '--quads', '800', '--quiet');
   assert.equal(run.status, 0, run.stderr);
-  const fitted = await mesher.mesh(sample('wavy_sheet.obj'), { quads: 800, fitSizes: true });
+  const fitted = await mesher.mesh(sample('wavy_sheet.obj'), { quads: 800 });
   assert.ok(Buffer.from(await fitted.file('obj')).equals(readFileSync(output)), 'the files differ');
   assert.equal(fitted.report.fittedSizes, true);
+  const even = await mesher.mesh(sample('wavy_sheet.obj'), { quads: 800, fitSizes: false });
+  assert.equal(even.report.fittedSizes, false);
+  await assert.rejects(mesher.mesh(sample('wavy_sheet.obj'), { fitSizes: 1 }), withCode('invalidOption'));
   await assert.rejects(mesher.mesh(sample('wavy_sheet.obj'), { fitSizes: true, mode: 'qmorph' }), withCode('invalidOption'));
 });
 

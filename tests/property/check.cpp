@@ -164,7 +164,7 @@ std::string describe(const Case& made) {
          (made.options.allQuad ? ", quadrilaterals only" : "") +
          (made.options.curvature ? ", chord error " + std::to_string(*made.options.curvature) : "") +
          (made.options.sizes.empty() ? "" : ", sizes at vertices") +
-         (made.options.fitSizes ? ", sizes that fit the field" : "");
+         (made.options.fitSizes.value_or(false) ? ", sizes that fit the field" : "");
 }
 
 }  // namespace qmcf::property

@@ -142,14 +142,14 @@ async function main() {
     for (const part of parts) {
       const meshOf = (mode) => join(folder, `${mode}.obj`);
       const qmcf = await measure(options, part.file, ['--mode', 'qmcf'], quads, meshOf('qmcf'));
-      const fitted = await measure(options, part.file, ['--mode', 'qmcf', '--fit-sizes'], quads, meshOf('fitted'));
+      const even = await measure(options, part.file, ['--mode', 'qmcf', '--no-fit-sizes'], quads, meshOf('even'));
       const qmorph = await measure(options, part.file, ['--mode', 'qmorph'], quads, meshOf('qmorph'));
       if (options.write && tables.length === 0) ['qmcf', 'qmorph'].forEach((mode) => drawMesh(part, mode, meshOf(mode)));
-      rows.push(measuredRow(part.name, 'QMCF', qmcf), measuredRow('', 'QMCF, fitted sizes', fitted),
+      rows.push(measuredRow(part.name, 'QMCF', qmcf), measuredRow('', 'QMCF, even sizes', even),
         paperRow("paper's QMCF", part.paper.qmcf),
         measuredRow('', 'Q-Morph', qmorph), paperRow("paper's Q-Morph", part.paper.qmorph));
       missing.push(...shortcomings(part, qmcf, qmorph));
-      valid &&= qmcf.valid && fitted.valid && qmorph.valid;
+      valid &&= qmcf.valid && even.valid && qmorph.valid;
     }
     console.log(`About ${quads} elements; means over the quads, best 1`);
     printTable(rows);

@@ -43,9 +43,9 @@ export interface MeshOptions {
    */
   curvature?: number | undefined;
   /**
-   * Let the size vary, within a factor of 1.5, to fit the cross field, if that makes better elements: fewer of their rows
-   * end inside faces. The number of elements and the mean size are kept; it takes about twice as long. Needs mode `qmcf`,
-   * and `size` where there are `sizes`. Default false.
+   * Let the size vary, within a factor of 1.5, to fit the cross field, where that promises better elements: fewer of
+   * their rows end inside faces. The number of elements and the mean size are kept. Needs mode `qmcf`, and `size` where
+   * there are `sizes`. Default true where a number of elements is all that is asked for, else false.
    */
   fitSizes?: boolean | undefined;
   /** Dihedral angle in degrees, between 0 and 180, from which an edge is sharp. Default 30. */
@@ -414,7 +414,7 @@ export interface MeshReport {
   readonly heldFaces: number;
   /** Nodes that the others moved along their edges by more than a tenth of the element size. */
   readonly slidNodes: number;
-  /** Whether the sizes vary to fit the field: {@link MeshOptions.fitSizes}, where that made better elements. */
+  /** Whether the sizes vary to fit the field: {@link MeshOptions.fitSizes}, where that promised better elements. */
   readonly fittedSizes: boolean;
   readonly sizing: SizeSources;
   /** The lengths of the mesh's edges in units of the target at their midpoints. */

@@ -25,8 +25,8 @@ export interface Settings {
   readonly sizes: SizesFile | undefined;
   /** Chord error in units of the model; undefined: whatever the size makes of it. */
   readonly curvature: number | undefined;
-  /** Let sizes vary to fit the field, where they can. */
-  readonly fitSizes: boolean;
+  /** Let sizes vary to fit the field, where they can; undefined: if a number of quads is all that is asked for. */
+  readonly fitSizes: boolean | undefined;
   readonly featureAngle: number;
   readonly mode: Mode;
   readonly gradation: number;
@@ -111,7 +111,7 @@ export const initialState: State = {
     quads: 3000,
     sizes: undefined,
     curvature: undefined,
-    fitSizes: false,
+    fitSizes: undefined,
     featureAngle: 30,
     mode: 'qmcf',
     gradation: 0.2,
@@ -138,10 +138,15 @@ export function canFit({ mode, sizedBy }: Settings): boolean {
   return mode === 'qmcf' && sizedBy !== 'sizes';
 }
 
+/** Whether sizes are to fit the field. */
+export function fitsSizes(settings: Settings): boolean {
+  return canFit(settings) && (settings.fitSizes ?? settings.sizedBy === 'quads');
+}
+
 /** The options for the core that follow from the controls. */
 export function optionsOf(settings: Settings): MeshOptions {
-  const { sizedBy, size, quads, sizes, fitSizes, ...others } = settings;
-  const rest = { ...others, fitSizes: fitSizes && canFit(settings) };
+  const { sizedBy, size, quads, sizes, ...others } = settings;
+  const rest = { ...others, fitSizes: fitsSizes(settings) };
   if (sizedBy === 'quads') {
     return { ...rest, quads };
   }

@@ -63,9 +63,13 @@ void addMesh(CLI::App& app, MeshCommand& command) {
       ->type_name("OUT")
       ->required();
   addFieldOptions(app, command.options, command.constraints, command.sizing);
-  app.add_flag("--fit-sizes", command.options.fitSizes,
-               "Let sizes vary by up to 1.5 to fit the cross field, if that makes better elements\n"
-               "(takes about twice as long)");
+  std::optional<bool>& fitSizes = command.options.fitSizes;
+  app.add_flag_callback(
+      "--fit-sizes", [&fitSizes] { fitSizes = true; },
+      "Let sizes vary by up to 1.5 to fit the cross field, where that promises better elements\n"
+      "(the default where a number of elements is all that is asked for)");
+  app.add_flag_callback(
+      "--no-fit-sizes", [&fitSizes] { fitSizes = false; }, "One size wherever the part allows it");
   const std::map<std::string, Mode> modes{{"qmcf", Mode::qmcf}, {"qmorph", Mode::qmorph}};
   app.add_option("--mode", command.options.mode, "Advancing front: qmcf (guided by the field) or qmorph (the original)")
       ->transform(CLI::CheckedTransformer(modes).description(""))

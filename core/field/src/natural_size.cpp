@@ -85,6 +85,28 @@ void addTriangle(System& system, const Surface& surface, const CrossField& field
   }
 }
 
+/// The integral of expectedRowEnds() over a triangle.
+double rowEndsIn(const Patch& patch, const CrossField& field, const IdMap<VertexId, double>& logs, TriangleId t) {
+  const auto corners = patch.surface.corners(t);
+  const auto at = [&](std::size_t c) -> const Vec3& { return patch.surface.position(corners[c % 3]); };
+  const Vec3 area = cross(at(1) - at(0), at(2) - at(0));
+  const double twiceArea = norm(area);
+  if (!(twiceArea > 0.0)) return 0.0;
+  const std::array<double, 3> angle = anglesIn(field, t);
+  Vec3 growth;
+  Vec3 turn;
+  double even = 0.0;
+  for (std::size_t c = 0; c < 3; ++c) {
+    const double log = math::log(patch.size[corners[c]]) + logs[corners[c]];
+    // Turned by a right angle and times twice the area: the gradient of the function that is 1 at this corner.
+    const Vec3 opposite = at(c + 1) - at(c + 2);
+    growth += opposite * log;
+    turn += opposite * angle[c];
+    even += patch.size[corners[c]] / 3.0;
+  }
+  return 0.5 * norm(growth + cross(area / twiceArea, turn)) / even;
+}
+
 }  // namespace
 
 Result<std::vector<IdMap<VertexId, double>>> naturalSizes(const std::vector<Patch>& patches,
@@ -118,6 +140,18 @@ Result<std::vector<IdMap<VertexId, double>>> naturalSizes(const std::vector<Patc
     for (const std::int32_t i : unknowns.of(p).raw()) result[p].push_back(logs[i] - mean);
   }
   return result;
+}
+
+double expectedRowEnds(const std::vector<Patch>& patches, const std::vector<CrossField>& fields,
+                       const std::vector<IdMap<VertexId, double>>& logs) {
+  double sum = 0.0;
+  for (std::size_t p = 0; p < patches.size(); ++p) {
+    if (fields[p].cross.empty()) continue;
+    for (const TriangleId t : patches[p].surface.triangles()) {
+      if (fields[p].index[t] == 0) sum += rowEndsIn(patches[p], fields[p], logs[p], t);
+    }
+  }
+  return sum;
 }
 
 }  // namespace qmcf

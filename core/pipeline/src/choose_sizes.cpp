@@ -8,20 +8,18 @@
 #include <utility>
 
 #include "count_correction.hpp"
-#include "join_faces.hpp"
 #include "natural_scale.hpp"
-#include "qmcf/mesh/element_shape.hpp"
+#include "prepare.hpp"
 
 namespace qmcf {
 namespace {
 
-/// How often the faces are meshed again for a number of elements that is nearer to the one asked for, or with sizes
-/// that fit the field. Large numbers come out nearer by themselves.
+/// How often the faces are meshed again for a number of elements that is nearer to the one asked for. Large numbers come
+/// out nearer by themselves.
 constexpr int kMostTrials = 2;
 constexpr std::int64_t kManyElements = 10'000;
-/// What a triangle is worth here: a row that ends costs about a tenth of this. In shapeCost() it is more, since where a
-/// triangle can be avoided at all it shall be.
-constexpr double kTriangleBadness = 0.5;
+/// The field hardly changes with the size: so many elements tell enough of it.
+constexpr std::int64_t kFieldElements = 3000;
 
 /// Faces that are not meshed by the first way tried.
 std::ptrdiff_t fallbacks(const Trial& trial) {
@@ -46,18 +44,18 @@ class SizeChoice {
   SizeChoice(const Part& part, Progress& progress) : part_(part), options_(part.options), progress_(progress) {}
 
   Result<ChosenSizes> run() {
-    auto first = makeTrial(part_, options_, nullptr, progress_);
+    if (options_.fitSizes.value_or(false)) {
+      if (const auto error = fit()) return *error;
+    }
+    if (!prepared_) {
+      if (const auto error = prepare(options_)) return *error;
+    }
+    auto first = makeTrial(part_, options_, *std::exchange(prepared_, std::nullopt), progress_);
     if (!first) return first.error();
     chosen_.trial = std::move(first).value();
     chosen_.askedBase = chosen_.trial.prepared.size.base;
-    int trials = kMostTrials;
-    if (options_.fitSizes) {
-      --trials;
-      if (const auto error = fit()) return *error;
-    }
     if (!options_.quads) return std::move(chosen_);
-    if (*options_.quads > kManyElements) trials = std::min(trials, 1);
-    if (const auto error = correct(*options_.quads, trials)) return *error;
+    if (const auto error = correct(*options_.quads, *options_.quads > kManyElements ? 1 : kMostTrials)) return *error;
     return std::move(chosen_);
   }
 
@@ -65,44 +63,46 @@ class SizeChoice {
   [[nodiscard]] double count(const Trial& trial) const { return elementCount(trial, part_.options); }
   [[nodiscard]] const SizeScale* scale() const { return chosen_.scale.empty() ? nullptr : &chosen_.scale; }
 
-  /// How far the elements are from squares, once the faces are relaxed together. Rows end at as many places as the root
-  /// of the number of elements, so that trials with a few more or fewer compare.
-  Result<double> badness(const Trial& trial) {
-    SharedNodes shared = sharedNodes(trial.prepared.divided);
-    std::vector<SharedFace> faces;
-    for (const MeshedFace& face : trial.faces) faces.push_back(shareFace(face, trial.prepared));
-    const std::vector<char> held(faces.size(), 0);
-    const auto slid = relaxJoint(part_, trial.prepared, faces, held, shared, 1.0, progress_);
-    if (!slid) return slid.error();
-    double sum = 0.0;
-    for (const SharedFace& face : faces) {
-      const auto triangles = static_cast<double>(face.report.triangles);
-      sum += shapeCost(face.mesh) - (kTriangleCost - kTriangleBadness) * triangles;
+  std::optional<Error> prepare(const MeshOptions& options) {
+    auto prepared = prepareFaces(part_.mesh, part_.brep, options, scale(), progress_);
+    if (!prepared) return prepared.error();
+    prepared_ = std::move(prepared).value();
+    return std::nullopt;
+  }
+
+  /// The options for larger elements, if those that are asked for are many.
+  [[nodiscard]] std::optional<MeshOptions> coarser() const {
+    const std::int64_t enough = options_.allQuad ? 4 * kFieldElements : kFieldElements;
+    double area = 0.0;
+    for (const BrepFace& face : part_.brep.faces) area += face.area;
+    const double least = std::sqrt(area / static_cast<double>(enough));
+    MeshOptions coarse = options_;
+    if (options_.quads && *options_.quads > enough) {
+      coarse.quads = enough;
+    } else if (options_.size && *options_.size < least) {
+      coarse.size = least;
+    } else {
+      return std::nullopt;
     }
-    return sum / std::sqrt(std::max(count(trial), 1.0));
+    return coarse;
   }
 
-  /// There is a mesh already: what else goes wrong is no reason to give that up.
-  static std::optional<Error> onlyCancelled(const Error& error) {
-    return error.code == ErrorCode::cancelled ? std::optional(error) : std::nullopt;
-  }
-
-  /// Tries sizes that fit the field.
+  /// Finds sizes that fit the field. Without them the part is meshed with even ones, whatever the reason: there is
+  /// nothing to be had then, or what fails here fails there, too.
   std::optional<Error> fit() {
-    auto scale = naturalScale(part_.brep, chosen_.trial.prepared, progress_);
-    if (!scale) return onlyCancelled(scale.error());
-    if (scale.value().empty()) return std::nullopt;
-    // For the same number as the first trial, or one of both would have more elements where they are needed.
-    auto fitted = makeTrial(part_, options_, &scale.value(), progress_);
-    if (!fitted) return onlyCancelled(fitted.error());
-    const auto before = badness(chosen_.trial);
-    if (!before) return before.error();
-    const auto after = badness(fitted.value());
-    if (!after) return after.error();
-    if (fallbacks(fitted.value()) > fallbacks(chosen_.trial) || !(after.value() < before.value())) return std::nullopt;
-    chosen_.trial = std::move(fitted).value();
+    const auto onlyCancelled = [](const Error& error) {
+      return error.code == ErrorCode::cancelled ? std::optional(error) : std::nullopt;
+    };
+    const std::optional<MeshOptions> coarse = coarser();
+    if (const auto error = prepare(coarse ? *coarse : options_)) return onlyCancelled(*error);
+    auto scale = naturalScale(part_.brep, *prepared_, progress_);
+    if (!scale) {
+      prepared_.reset();
+      return onlyCancelled(scale.error());
+    }
     chosen_.scale = std::move(scale).value();
-    chosen_.askedBase = chosen_.trial.prepared.size.base;
+    // Even sizes are what this was prepared with.
+    if (coarse || !chosen_.scale.empty()) prepared_.reset();
     return std::nullopt;
   }
 
@@ -112,7 +112,8 @@ class SizeChoice {
     CountTrial tried{wanted, count(chosen_.trial)};
     options_.quads = correctedCount(tried, wanted);
     for (; trials > 0 && *options_.quads != tried.asked; --trials) {
-      auto corrected = makeTrial(part_, options_, scale(), progress_);
+      if (const auto error = prepare(options_)) return error;
+      auto corrected = makeTrial(part_, options_, *std::exchange(prepared_, std::nullopt), progress_);
       if (!corrected) return corrected.error();
       const CountTrial now{*options_.quads, count(corrected.value())};
       options_.quads = correctedCount(tried, now, wanted);
@@ -127,6 +128,7 @@ class SizeChoice {
   const Part& part_;
   MeshOptions options_;
   Progress& progress_;
+  std::optional<PreparedFaces> prepared_;  ///< For the next trial.
   ChosenSizes chosen_;
 };
 

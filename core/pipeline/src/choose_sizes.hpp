@@ -14,9 +14,9 @@ struct ChosenSizes {
   double askedBase = 0.0;  ///< The base size for what was asked for, before the number of elements was corrected.
 };
 
-/// Meshes the faces with one size everywhere, and where that is asked for once more with sizes that fit the cross
-/// field; keeps what has the better elements (E6 of docs/algorithm.md). If a number of elements is asked for, this is
-/// corrected by what the front made of it: that of the size field is an estimate. Errors: those of makeTrial().
+/// Meshes the faces with one size everywhere, or where that is asked for and promises a better mesh with sizes that fit
+/// the cross field (E6 of docs/algorithm.md). If a number of elements is asked for, this is corrected by what the front
+/// made of it: that of the size field is an estimate. Errors: those of prepareFaces().
 Result<ChosenSizes> chooseSizes(const Part& part, Progress& progress);
 
 }  // namespace qmcf

@@ -37,10 +37,10 @@ std::optional<Error> validateSizes(const MeshOptions& options) {
     return invalid(
         "Give either sizes or quads, not both: the sizes say how many elements there are. size may go with them.");
   }
-  if (options.fitSizes && options.mode != Mode::qmcf) {
+  if (options.fitSizes.value_or(false) && options.mode != Mode::qmcf) {
     return invalid("Fitting sizes to the field needs the mode qmcf: the other one asks no cross field.");
   }
-  if (options.fitSizes && !options.sizes.empty() && !options.size) {
+  if (options.fitSizes.value_or(false) && !options.sizes.empty() && !options.size) {
     return invalid(
         "Fitting sizes to the field goes with size or quads, not with sizes alone: these say what they are "
         "themselves.");
@@ -58,6 +58,7 @@ std::optional<Error> validateSizes(const MeshOptions& options) {
 Result<MeshOptions> optionsFor(const TriangleMesh& input, const InspectResult& inspected, MeshOptions options) {
   if (options.sizes.empty()) {
     if (!options.size && !options.quads) options.quads = kDefaultQuads;
+    if (!options.fitSizes) options.fitSizes = options.quads && options.mode == Mode::qmcf;
     return options;
   }
   auto sizes = sizesOfRepaired(options.sizes, input, inspected.repaired.mesh);

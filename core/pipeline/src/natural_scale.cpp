@@ -15,8 +15,11 @@ namespace {
 /// How far the logarithm goes from its mean, either way. Twice as much made meshes hardly more regular, and nobody who
 /// asks for a number of elements expects some to be far larger than others.
 constexpr double kMostLog = 0.2;
-/// Variation of the logarithm that is round-off.
-constexpr double kNoVariation = 1e-3;
+/// With this share of the ends of rows at most, or one size is as good: where sizes change for other reasons, most rows
+/// end for these.
+constexpr double kLeftEnds = 0.88;
+/// A mesh with fewer ends than this is regular as it is.
+constexpr double kFewEnds = 1.0;
 
 /// Bends towards the bounds, with slope 1 at 0: tanh.
 double bounded(double log) {
@@ -36,16 +39,17 @@ Result<SizeScale> naturalScale(const Brep& brep, const PreparedFaces& prepared, 
   auto natural = naturalSizes(patches, fields, progress);
   if (!natural) return natural.error();
   auto& logs = natural.value();
-  double least = kMostLog;
+  std::vector<IdMap<VertexId, double>> even;
   double most = -kMostLog;
   for (auto& ofPatch : logs) {
+    even.emplace_back(ofPatch.size(), 0.0);
     for (double& log : ofPatch.raw()) {
       log = bounded(log);
-      least = std::min(least, log);
       most = std::max(most, log);
     }
   }
-  if (most - least < kNoVariation) return SizeScale();
+  const double endsBefore = expectedRowEnds(patches, fields, even);
+  if (endsBefore < kFewEnds || expectedRowEnds(patches, fields, logs) > kLeftEnds * endsBefore) return SizeScale();
   std::vector<SizeScale::Face> faces;
   for (std::size_t p = 0; p < patches.size(); ++p) {
     const Surface& surface = patches[p].surface;

@@ -24,9 +24,9 @@ struct Trial {
   std::vector<MeshedFace> faces;  ///< Per face of the B-rep.
 };
 
-/// Everything from the sizes to the meshed faces. options: the part's with another size or number of elements; scale:
-/// as for prepareFaces(). Errors: those of prepareFaces().
-Result<Trial> makeTrial(const Part& part, const MeshOptions& options, const SizeScale* scale, Progress& progress);
+/// The meshes of faces that were prepared with `options`: the part's, or these with another number of elements. Errors:
+/// cancelled.
+Result<Trial> makeTrial(const Part& part, const MeshOptions& options, PreparedFaces prepared, Progress& progress);
 
 /// Meshes the faces that the last preparation made anew. Errors: cancelled.
 std::optional<Error> meshChanged(const Part& part, Trial& trial, Progress& progress);

@@ -82,6 +82,28 @@ TEST(NaturalSize, IsSharedByFacesAlongTheirEdges) {
   }
 }
 
+TEST(NaturalSize, LeavesNoRowToEndInABend) {
+  SilentProgress progress;
+  const Patch sector = makeSector(1.0, 2.0, 60, 40);
+  const std::vector<CrossField> fields{solve(sector)};
+  const std::vector<Patch> patches{sector};
+  // Of rows with one size across the bend, those that the outer arc is longer by end: 90 degrees of the radii's
+  // difference.
+  const std::vector<IdMap<VertexId, double>> even{IdMap<VertexId, double>(sector.surface.vertexCount(), 0.0)};
+  const double ends = 0.5 * std::numbers::pi / 0.05;
+  EXPECT_NEAR(expectedRowEnds(patches, fields, even), ends, 0.01 * ends);
+  EXPECT_LT(expectedRowEnds(patches, fields, sizesOf(patches)), 0.05 * ends);
+  // Where sizes grow along a field that does not turn, rows end as well: the width of a square times the change of 1/h.
+  Patch square = testing::makeSquare(16);
+  std::vector<IdMap<VertexId, double>> growing{IdMap<VertexId, double>(square.surface.vertexCount(), 0.0)};
+  for (std::size_t v = 0; v < square.surface.vertexCount(); ++v) {
+    growing[0][VertexId(v)] = 0.1 * square.surface.position(VertexId(v)).x;
+  }
+  const double size = square.size[VertexId(0)];
+  EXPECT_NEAR(expectedRowEnds({square}, {solve(square)}, growing), 0.1 / size, 1e-6 / size);
+  EXPECT_EQ(expectedRowEnds(patches, {CrossField{}}, even), 0.0);
+}
+
 TEST(NaturalSize, AsksForNothingWhereThereIsNoField) {
   SilentProgress progress;
   const std::vector<Patch> patches{makeSector(1.0, 2.0, 12, 8)};

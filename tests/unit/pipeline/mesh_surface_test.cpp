@@ -424,9 +424,9 @@ TEST(MeshSurface, FitsSizesToTheFieldWhereThatIsBetter) {
   SilentProgress silent;
   MeshOptions options;
   options.quads = 900;
-  const auto even = meshSurface(sector(), options, silent);
-  options.fitSizes = true;
   const auto fitted = meshSurface(sector(), options, silent);
+  options.fitSizes = false;
+  const auto even = meshSurface(sector(), options, silent);
   ASSERT_TRUE(even.ok() && fitted.ok());
   for (const auto* const result : {&even, &fitted}) expectGood(result->value());
   EXPECT_FALSE(even.value().fittedSizes);
@@ -438,6 +438,23 @@ TEST(MeshSurface, FitsSizesToTheFieldWhereThatIsBetter) {
   const auto [least, most] = std::minmax_element(fitted.value().vertexSize.begin(), fitted.value().vertexSize.end());
   EXPECT_GT(*most, 1.3 * *least);
   EXPECT_LT(*most, 1.5 * *least);
+  // A size is taken at its word, unless it need not be.
+  MeshOptions sized;
+  sized.size = 0.04;
+  const auto asked = meshSurface(sector(), sized, silent);
+  sized.fitSizes = true;
+  const auto allowed = meshSurface(sector(), sized, silent);
+  ASSERT_TRUE(asked.ok() && allowed.ok());
+  EXPECT_FALSE(asked.value().fittedSizes);
+  EXPECT_TRUE(allowed.value().fittedSizes);
+  EXPECT_LT(allowed.value().quality.irregularVertices, asked.value().quality.irregularVertices);
+  // Of many elements the field is that of fewer.
+  options.quads = 6000;
+  options.fitSizes.reset();
+  const auto many = meshSurface(sector(), options, silent);
+  ASSERT_TRUE(many.ok());
+  EXPECT_TRUE(many.value().fittedSizes);
+  EXPECT_NEAR(static_cast<double>(many.value().quality.quads), 6000.0, 300.0);
   // On a plate whose field does not turn there is nothing to fit.
   const auto plate = meshSurface(shapes::square(8), options, silent);
   ASSERT_TRUE(plate.ok());

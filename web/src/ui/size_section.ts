@@ -1,7 +1,7 @@
 import { button, el, setText, show, uniqueId } from '../dom.js';
 import * as format from '../format.js';
 import type { Session } from '../session.js';
-import { canFit, type Store } from '../state.js';
+import { canFit, fitsSizes, type Store } from '../state.js';
 import { numberField, toggle } from './fields.js';
 
 const sliderMin = 100;
@@ -38,7 +38,7 @@ export function sizeSection(store: Store, session: Session): HTMLElement {
   const fit = toggle(
     'Fit sizes to the field',
     (fitSizes) => session.changeSettings({ fitSizes }),
-    'Let sizes vary by up to 1.5, if that makes better elements: fewer rows end inside faces. Takes about twice as long.',
+    'Let sizes vary by up to 1.5, where that promises better elements: fewer rows end inside faces.',
   );
   const id = uniqueId();
   const slider = el('input', { id, type: 'range', min: 0, max: 1, step: 0.005, 'aria-label': 'Fineness' });
@@ -57,7 +57,7 @@ export function sizeSection(store: Store, session: Session): HTMLElement {
     slider.setAttribute('aria-valuetext', `about ${format.counted(settings.quads, 'quad')}`);
     size.element.dataset['leading'] = String(settings.sizedBy === 'size');
     quads.element.dataset['leading'] = String(settings.sizedBy === 'quads');
-    fit.input.checked = settings.fitSizes;
+    fit.input.checked = fitsSizes(settings);
     for (const input of [size.input, quads.input, chordError.input, slider]) {
       input.disabled = !model;
     }

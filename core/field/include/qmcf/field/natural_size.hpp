@@ -19,4 +19,11 @@ namespace qmcf {
 Result<std::vector<IdMap<VertexId, double>>> naturalSizes(const std::vector<Patch>& patches,
                                                           const std::vector<CrossField>& fields, Progress& progress);
 
+/// How many rows of elements are to be expected to end inside the patches if these have the sizes h = patch.size *
+/// exp(log): the integral of |grad(log h) + rotated(grad(angle))| / patch.size; not / h, or larger elements where most
+/// rows end would count for fewer ends. Triangles around singularities and patches with an empty field are left out.
+/// logs: per patch and vertex.
+double expectedRowEnds(const std::vector<Patch>& patches, const std::vector<CrossField>& fields,
+                       const std::vector<IdMap<VertexId, double>>& logs);
+
 }  // namespace qmcf

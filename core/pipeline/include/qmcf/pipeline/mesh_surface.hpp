@@ -41,10 +41,10 @@ struct MeshOptions {
   /// elements holds with it, up to where three times the size would be needed elsewhere. Unset: curved faces have no
   /// smaller elements than flat ones.
   std::optional<double> curvature;
-  /// Let the size vary, within a factor of 1.5, to fit the cross field, if that makes better elements: fewer of their
-  /// rows end inside faces. The number of elements and the mean size are kept; it takes about twice as long. Needs mode
-  /// qmcf, and size where there are sizes.
-  bool fitSizes = false;
+  /// Let the size vary, within a factor of 1.5, to fit the cross field, where that promises better elements: fewer of
+  /// their rows end inside faces. The number of elements and the mean size are kept. Needs mode qmcf, and size where
+  /// there are sizes. Unset: where a number of elements is all that is asked for.
+  std::optional<bool> fitSizes;
   double featureAngle = 30.0;  ///< Dihedral angle in degrees, (0, 180), from which an edge is sharp.
   Mode mode = Mode::qmcf;      ///< The advancing front.
   bool allQuad = false;        ///< No triangles: a mesh of twice the size with every element cut at its edges' middles.
