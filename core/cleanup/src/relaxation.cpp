@@ -16,8 +16,6 @@ constexpr double kSizeWeight = 0.3;
 constexpr double kStill = 5e-3;
 /// Going further than wanted gets everything there in fewer sweeps, as in successive over-relaxation.
 constexpr double kOverRelaxation = 1.4;
-/// Weight of being a parallelogram, whose Jacobian is the same at all corners, beside that of being a square.
-constexpr double kParallelogramWeight = 0.6;
 
 }  // namespace
 
@@ -47,12 +45,7 @@ Vec3 idealCorner(const EditMesh& mesh, HalfedgeId h, const Vec3& normal, double 
   }
   const double length = norm(arm);
   if (!(length > 0.0)) return centre;
-  const Vec3 ideal = centre + arm * ((1.0 - kSizeWeight) + kSizeWeight * wanted / length);
-  if (third == last) return ideal;
-  // What the quad is away from a parallelogram: this at two opposite corners, the negative at the others.
-  const Vec3 hourglass = (p0 - p1 + p2 - corner(last)) * 0.25;
-  // The corner by itself can make up for half of what it is away from the square, and for a quarter of the hourglass.
-  return p0 + (ideal - p0 - hourglass * kParallelogramWeight) / (1.0 + 0.5 * kParallelogramWeight);
+  return centre + arm * ((1.0 - kSizeWeight) + kSizeWeight * wanted / length);
 }
 
 EditMesh::Vertex projectVertex(const RelaxationTarget& target, const EditMesh::Vertex& from, const Vec3& position) {

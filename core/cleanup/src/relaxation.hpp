@@ -22,13 +22,13 @@ struct RelaxationTarget {
 /// The place on the face nearest to a position, with normal and location.
 EditMesh::Vertex projectVertex(const RelaxationTarget& target, const EditMesh::Vertex& from, const Vec3& position);
 
-/// Where the face of h wants its corner at origin(h): towards the corner of the square (equilateral triangle) that fits
-/// it best, in the tangent plane of normal, and of the parallelogram that fits a quad best; size: the edge length wanted
-/// there.
+/// Where the square (equilateral triangle) that fits the face of h best has its corner at origin(h), in the tangent
+/// plane of normal; size: the edge length wanted there.
 Vec3 idealCorner(const EditMesh& mesh, HalfedgeId h, const Vec3& normal, double size);
 
-/// One sweep of successive over-relaxation over the given vertices: each moves towards the mean of the places that
-/// its elements want it at (idealCorner()) and somewhat further, is projected, and stays where it was if an element around it would become worse than both before and `enough`. Boundary vertices don't move.
+/// One sweep of successive over-relaxation over the given vertices: each moves towards the mean of the places that the
+/// best-fitting squares (equilateral triangles) of its elements give it and somewhat further, is projected, and stays
+/// where it was if an element around it would become worse than both before and `enough`. Boundary vertices don't move.
 void relax(EditMesh& mesh, const std::vector<VertexId>& vertices, const RelaxationTarget& target, double enough);
 
 /// Sweeps over all vertices of a mesh that leave out those around which nothing has moved since they were visited last.

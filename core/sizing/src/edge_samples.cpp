@@ -124,7 +124,10 @@ void limitByLength(EdgeSamples& samples, double lowest) {
 }
 
 void limitByGaps(EdgeSamples& samples, const std::vector<Gap>& gaps, double nominal, double lowest) {
+  // The tip of a wedge looks alike at all scales: smaller elements are no better there.
+  const double tip = 2.0 * nominal;
   for (const Gap& gap : gaps) {
+    if (gap.aroundCorner < tip) continue;
     // A strip can take elements longer than it is wide: the mean of both lengths keeps count and aspect at bay.
     const double size = std::max(lowest, std::sqrt(gap.distance * nominal));
     for (std::size_t end = 0; end < 2; ++end) samples.lower(gap.edge[end], gap.arcLength[end], size);

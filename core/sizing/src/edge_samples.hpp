@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -27,6 +28,8 @@ struct Gap {
   std::array<std::int32_t, 2> edge{kNone, kNone};
   std::array<double, 2> arcLength{};
   double distance = 0.0;
+  /// Length of the boundary between the two places if they are on the legs of one acute corner.
+  double aroundCorner = std::numeric_limits<double>::infinity();
 };
 
 /// Puts samples at each point of every edge and, between points, at most `spacing` apart, all with the size `base`.

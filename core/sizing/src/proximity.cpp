@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <optional>
 
 #include "edge_samples.hpp"
@@ -65,6 +66,7 @@ struct BoundaryPlace {
   double end = 0.0;        ///< Arc length of the edge at its target.
   double alongLoop = 0.0;  ///< Length of the loop up to its origin.
   std::int32_t loop = kNone;
+  std::size_t coedge = 0;  ///< Index in the loop.
 };
 
 struct FaceBoundary {
@@ -78,14 +80,15 @@ FaceBoundary boundaryOf(const BrepFace& face, const FaceSurface& cut, const std:
   for (std::size_t l = 0; l < cut.loops.size(); ++l) {
     double sum = 0.0;
     std::size_t next = 0;
-    for (const Coedge& coedge : face.loops[l].coedges) {
+    for (std::size_t c = 0; c < face.loops[l].coedges.size(); ++c) {
+      const Coedge& coedge = face.loops[l].coedges[c];
       const EdgeCurve& curve = curves[static_cast<std::size_t>(coedge.edge)];
       const std::size_t segments = curve.points.size() - 1;
       for (std::size_t i = 0; i < segments && next < cut.loops[l].size(); ++i, ++next) {
         const std::size_t from = coedge.reversed ? segments - i : i;
         const std::size_t to = coedge.reversed ? from - 1 : from + 1;
         BoundaryPlace& place = boundary.place[cut.loops[l][next]];
-        place = {coedge.edge, curve.arcLength[from], curve.arcLength[to], sum, static_cast<std::int32_t>(l)};
+        place = {coedge.edge, curve.arcLength[from], curve.arcLength[to], sum, static_cast<std::int32_t>(l), c};
         sum += std::fabs(place.end - place.start);
       }
     }
@@ -96,21 +99,32 @@ FaceBoundary boundaryOf(const BrepFace& face, const FaceSurface& cut, const std:
 
 double along(const BoundaryPlace& place, double fraction) { return place.start + (place.end - place.start) * fraction; }
 
-/// Whether the hit is merely on the other leg of a nearby corner or bend: then the way along the loop is short.
-bool isAround(const FaceBoundary& boundary, const BoundaryPlace& from, double fromFraction, const BoundaryPlace& to,
-              const Hit& hit) {
-  constexpr double kDetour = 3.0;
-  if (from.loop != to.loop) return false;
+/// The shorter way along a loop between two places.
+struct WayAround {
+  double length = std::numeric_limits<double>::infinity();  ///< If they are on one loop at all.
+  bool roundAcuteCorner = false;                            ///< With a single corner on it, an acute one.
+};
+
+WayAround wayAround(const BrepFace& face, const FaceBoundary& boundary, const BoundaryPlace& from, double fromFraction,
+                    const BoundaryPlace& to, const Hit& hit) {
+  constexpr double kAcute = 1.05;
+  if (from.loop != to.loop) return {};
+  const auto loop = static_cast<std::size_t>(from.loop);
   const double here = from.alongLoop + std::fabs(from.end - from.start) * fromFraction;
   const double there = to.alongLoop + std::fabs(to.end - to.start) * hit.point.fraction;
-  const double oneWay = std::fabs(there - here);
-  const double way = std::min(oneWay, boundary.loopLength[static_cast<std::size_t>(from.loop)] - oneWay);
-  return way <= kDetour * hit.distance;
+  const double ahead = there >= here ? there - here : boundary.loopLength[loop] - (here - there);
+  const double back = boundary.loopLength[loop] - ahead;
+  const std::vector<Coedge>& coedges = face.loops[loop].coedges;
+  const std::size_t first = ahead <= back ? from.coedge : to.coedge;
+  const std::size_t last = ahead <= back ? to.coedge : from.coedge;
+  const bool isNext = first != last && (first + 1) % coedges.size() == last;
+  return {std::min(ahead, back), isNext && coedges[last].cornerAngle < kAcute};
 }
 
 /// Shoots from the places on the half-edge that are odd multiples of half a step along its edge.
-void shootFromHalfedge(std::vector<Gap>& gaps, const Surface& surface, const FaceBoundary& boundary, HalfedgeId h,
-                       double step, double reach) {
+void shootFromHalfedge(std::vector<Gap>& gaps, const BrepFace& face, const Surface& surface,
+                       const FaceBoundary& boundary, HalfedgeId h, double step, double reach) {
+  constexpr double kDetour = 3.0;
   const BoundaryPlace& place = boundary.place[h];
   const double first = std::min(place.start, place.end);
   const double last = std::max(place.start, place.end);
@@ -120,8 +134,15 @@ void shootFromHalfedge(std::vector<Gap>& gaps, const Surface& surface, const Fac
     const std::optional<Hit> hit = shootAcross(surface, {h, fraction}, reach);
     if (!hit) continue;
     const BoundaryPlace& other = boundary.place[hit->point.halfedge];
-    if (other.edge == kNone || isAround(boundary, place, fraction, other, *hit)) continue;
-    gaps.push_back({{place.edge, other.edge}, {s, along(other, hit->point.fraction)}, hit->distance});
+    if (other.edge == kNone) continue;
+    const WayAround way = wayAround(face, boundary, place, fraction, other, *hit);
+    // Merely the other leg of a nearby corner or bend.
+    if (way.length <= kDetour * hit->distance) continue;
+    Gap& gap = gaps.emplace_back();
+    gap.edge = {place.edge, other.edge};
+    gap.arcLength = {s, along(other, hit->point.fraction)};
+    gap.distance = hit->distance;
+    if (way.roundAcuteCorner) gap.aroundCorner = way.length;
   }
 }
 
@@ -143,7 +164,7 @@ std::optional<std::vector<Gap>> findGaps(const std::vector<EdgeCurve>& curves, c
         if (edge == kNone) continue;
         const double length = curves[static_cast<std::size_t>(edge)].length();
         if (!(length > 0.0)) continue;
-        shootFromHalfedge(gaps, cut.surface, boundary, h, length / std::ceil(length / spacing), reach);
+        shootFromHalfedge(gaps, face, cut.surface, boundary, h, length / std::ceil(length / spacing), reach);
       }
     }
   }

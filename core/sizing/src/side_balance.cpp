@@ -68,6 +68,7 @@ double rowsAcross(const Brep& brep, const BrepFace& face, const std::vector<Edge
 }
 
 constexpr double kFewRows = 2.0;
+constexpr double kOneRow = 1.6;  ///< As for meshStrip().
 
 /// In a face of one or two rows there is no room for the two irregular vertices: they become triangles.
 double weightOf(double rows) {
@@ -90,6 +91,23 @@ bool canMatch(const Row& row, const std::vector<EdgeCount>& edges) {
   return std::fabs(ahead - back) <= kDifference || std::max(ahead, back) <= ratio * std::min(ahead, back);
 }
 
+/// The face of a strip with its corners as a single row of quadrilaterals takes them: between slanted ends the obtuse
+/// ones have an element each, too, or the row would end in triangles.
+BrepFace withEnds(BrepFace face) {
+  constexpr double kMostObtuse = 2.8;  // Radians.
+  if (face.loops.size() != 1) return face;
+  for (std::int32_t missing = 4 - turnOf(face.loops[0]); missing > 0; --missing) {
+    Coedge* sharpest = nullptr;
+    for (Coedge& coedge : face.loops[0].coedges) {
+      if (coedge.cornerQuads != 2 || !(coedge.cornerAngle < kMostObtuse)) continue;
+      if (sharpest == nullptr || coedge.cornerAngle < sharpest->cornerAngle) sharpest = &coedge;
+    }
+    if (sharpest == nullptr) break;
+    sharpest->cornerQuads = 1;
+  }
+  return face;
+}
+
 /// Collects the rows of the faces.
 class RowFinder {
  public:
@@ -98,9 +116,9 @@ class RowFinder {
 
   std::vector<Row> find() {
     for (std::size_t f = 0; f < brep_.faces.size(); ++f) {
-      const BrepFace& face = brep_.faces[f];
       face_ = static_cast<std::int32_t>(f);
-      acrossFace_ = rowsAcross(brep_, face, edges_);
+      acrossFace_ = rowsAcross(brep_, brep_.faces[f], edges_);
+      const BrepFace face = acrossFace_ < kOneRow ? withEnds(brep_.faces[f]) : brep_.faces[f];
       if (isRectilinear(face)) {
         for (const BrepLoop& loop : face.loops) addLoop(loop);
         if (face.loops.size() == 2 && acrossFace_ < kFewRows) addFrame(face);
