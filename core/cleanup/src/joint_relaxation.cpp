@@ -100,13 +100,16 @@ class JointRelaxation {
         }
       }
     }
+    for (std::size_t f = 0; f < faces.size(); ++f) stays_.push_back(heldVertices(f));
     for (std::size_t e = 0; e < edges.size(); ++e) {
       places_.push_back(edges[e].arcLength);
       for (std::size_t i = edges[e].slidesAtStart ? 0 : 1; i + 1 < edges[e].nodes.size(); ++i) {
         const std::vector<double>& stays = edges[e].stays;
         if (std::binary_search(stays.begin(), stays.end(), edges[e].arcLength[i])) continue;
         const std::vector<Occurrence>& at = occurrences_[nodeOf({e, i})];
-        const bool isHeld = std::any_of(at.begin(), at.end(), [&](const Occurrence& o) { return faces[o.face].held; });
+        const bool isHeld = std::any_of(at.begin(), at.end(), [&](const Occurrence& o) {
+          return faces[o.face].held || (!stays_[o.face].empty() && stays_[o.face][o.vertex] != 0);
+        });
         if (!isHeld) sliders_.push_back({e, i});
       }
     }
@@ -115,7 +118,10 @@ class JointRelaxation {
   Result<std::int64_t> run(Progress& progress) {
     const std::vector<Vec3> before = nodes_;
     std::vector<LazyRelaxation> relaxations;
-    for (std::size_t f = 0; f < meshes_.size(); ++f) relaxations.emplace_back(meshes_[f], targetOf(f), kEnough, false);
+    for (std::size_t f = 0; f < meshes_.size(); ++f) {
+      relaxations.emplace_back(meshes_[f], targetOf(f), kEnough, false);
+      relaxations.back().hold(stays_[f]);
+    }
     for (int round = 0; round < options_.rounds; ++round) {
       if (!progress.report(Stage::cleanup, static_cast<double>(round) / options_.rounds)) return cancelledError();
       std::vector<std::vector<VertexId>> moved(meshes_.size());
@@ -142,10 +148,25 @@ class JointRelaxation {
   }
 
  private:
+  /// Per vertex of a face's mesh, 1 if it is in one of the held places; empty where there are none.
+  [[nodiscard]] IdMap<VertexId, char> heldVertices(std::size_t face) const {
+    const std::vector<Surroundings>& places = faces_[face].heldPlaces;
+    const EditMesh& mesh = meshes_[face];
+    IdMap<VertexId, char> stays(places.empty() ? 0 : mesh.vertexCapacity());
+    for (const VertexId v : IdRange<VertexId>(stays.size())) {
+      if (!mesh.alive(v)) continue;
+      const bool isHeld = std::any_of(places.begin(), places.end(), [&](const Surroundings& place) {
+        return squaredNorm(mesh.position(v) - place.centre) <= place.radius * place.radius;
+      });
+      stays[v] = isHeld ? 1 : 0;
+    }
+    return stays;
+  }
+
   /// Makes the worst elements better. Returns false when progress asked to stop.
   bool liftAll(Progress& progress) {
     std::vector<WorstLift> lifts;
-    for (std::size_t f = 0; f < meshes_.size(); ++f) lifts.emplace_back(meshes_[f], targetOf(f), kLifted);
+    for (std::size_t f = 0; f < meshes_.size(); ++f) lifts.emplace_back(meshes_[f], targetOf(f), kLifted, stays_[f]);
     for (int round = 0; round < kLiftRounds; ++round) {
       if (!progress.report(Stage::cleanup, 1.0)) return false;
       bool isStill = true;
@@ -332,6 +353,7 @@ class JointRelaxation {
   std::vector<Vec3>& nodes_;
   JointRelaxationOptions options_;
   std::vector<EditMesh> meshes_;
+  std::vector<IdMap<VertexId, char>> stays_;  ///< Per face: heldVertices().
   std::vector<std::vector<Occurrence>> occurrences_;
   std::vector<std::vector<double>> places_;
   std::vector<Slider> sliders_;

@@ -23,8 +23,8 @@ constexpr double kOffPlane = 0.15;
 
 }  // namespace
 
-WorstLift::WorstLift(EditMesh& mesh, const RelaxationTarget& target, double enough)
-    : mesh_(mesh), target_(target), enough_(enough), awake_(mesh.vertexCapacity(), 1) {}
+WorstLift::WorstLift(EditMesh& mesh, const RelaxationTarget& target, double enough, const IdMap<VertexId, char>& stays)
+    : mesh_(mesh), target_(target), enough_(enough), stays_(stays), awake_(mesh.vertexCapacity(), 1) {}
 
 bool WorstLift::run() {
   bool movedAny = false;
@@ -56,7 +56,8 @@ std::vector<VertexId> WorstLift::dueVertices() const {
     const FaceId f(i);
     if (mesh_.kind(f) == FaceKind::removed) continue;
     const auto isDue = [&](HalfedgeId h) {
-      return h.valid() && awake_[mesh_.origin(h)] != 0 && !mesh_.isBoundary(mesh_.origin(h));
+      if (!h.valid() || awake_[mesh_.origin(h)] == 0 || mesh_.isBoundary(mesh_.origin(h))) return false;
+      return stays_.empty() || stays_[mesh_.origin(h)] == 0;
     };
     const auto sides = mesh_.sides(f);
     if (std::none_of(sides.begin(), sides.end(), isDue) || faceShape(mesh_, f) >= enough_) continue;

@@ -9,7 +9,8 @@ namespace qmcf {
 /// element around them is best, by pattern search. No element around becomes worse than the worst there was.
 class WorstLift {
  public:
-  WorstLift(EditMesh& mesh, const RelaxationTarget& target, double enough);
+  /// stays: per vertex, 1 if it must not move; may be empty.
+  WorstLift(EditMesh& mesh, const RelaxationTarget& target, double enough, const IdMap<VertexId, char>& stays);
 
   /// A few sweeps over those vertices that found no better place only before something near them moved. Returns whether
   /// any moved. Earlier marks of the mesh become invalid.
@@ -25,6 +26,7 @@ class WorstLift {
   EditMesh& mesh_;
   RelaxationTarget target_;
   double enough_;
+  const IdMap<VertexId, char>& stays_;
   IdMap<VertexId, char> awake_;
 };
 

@@ -118,7 +118,7 @@ bool LazyRelaxation::sweep() {
   for (const VertexId v : IdRange<VertexId>(awake_.size())) {
     if (awake_[v] == 0) continue;
     awake_[v] = 0;
-    if (!mesh_.alive(v) || mesh_.isBoundary(v)) continue;
+    if (!mesh_.alive(v) || mesh_.isBoundary(v) || (!stays_.empty() && stays_[v] != 0)) continue;
     const double move = relaxVertex(mesh_, v, target_, enough_);
     mesh_.commitUnwatched();
     if (move <= kStill) continue;

@@ -36,6 +36,8 @@ class LazyRelaxation {
  public:
   /// isAwake: whether all vertices are in the beginning.
   LazyRelaxation(EditMesh& mesh, const RelaxationTarget& target, double enough, bool isAwake = true);
+  /// The vertices marked here stay where they are from now on.
+  void hold(const IdMap<VertexId, char>& stays) { stays_ = stays; }
 
   /// From now on vertices go to the face itself; all are awake.
   void land();
@@ -50,6 +52,7 @@ class LazyRelaxation {
   RelaxationTarget target_;
   double enough_;
   IdMap<VertexId, char> awake_;
+  IdMap<VertexId, char> stays_;  ///< Empty: none.
 };
 
 }  // namespace qmcf

@@ -232,6 +232,10 @@ std::string meshText(const MeshResult& result) {
     const std::string held = counted(result.heldFaces, "face keeps its nodes", "faces keep their nodes");
     reasons += line("", held + ": moved along their edges they would make the mesh invalid");
   }
+  if (result.heldPlaces > 0) {
+    const std::string held = counted(result.heldPlaces, "place keeps its vertices", "places keep their vertices");
+    reasons += line("", held + ": relaxed with the others they would make the mesh invalid");
+  }
   return text + line("Faces", join(parts)) + reasons;
 }
 

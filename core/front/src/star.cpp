@@ -117,6 +117,8 @@ bool placeCells(FrontMesh& front, FaceId start, const std::vector<EditMesh::Vert
   for (const auto& cell : cells) {
     std::vector<VertexId> corners;
     for (const int i : cell) corners.push_back(ids[static_cast<std::size_t>(i)]);
+    // On a folded triangulation a cell can enclose a vertex of the next one, and took it away.
+    formed = formed && std::all_of(corners.begin(), corners.end(), [&](VertexId v) { return mesh.alive(v); });
     for (std::size_t i = 0; formed && i < 4; ++i) formed = join(front, corners[i], corners[(i + 1) % 4]);
     formed = formed && formElement(front, corners, kLeastQuality).has_value();
   }

@@ -2,18 +2,17 @@
 
 #include <cstddef>
 
-#include "qmcf/cleanup/joint_relaxation.hpp"
 #include "qmcf/sizing/edge_curve.hpp"
 
 namespace qmcf {
 
 Result<std::int64_t> relaxJoint(const Part& part, const PreparedFaces& prepared, std::vector<SharedFace>& faces,
-                                const std::vector<char>& held, SharedNodes& shared, double sizeScale,
-                                Progress& progress) {
+                                const Held& held, SharedNodes& shared, double sizeScale, Progress& progress) {
   const Brep& brep = part.brep;
   std::vector<JointFace> joint;
   for (std::size_t f = 0; f < faces.size(); ++f) {
-    joint.push_back({&faces[f].mesh, &faces[f].node, &prepared.patches[f], &part.faceTrees[f], held[f] != 0});
+    joint.push_back({&faces[f].mesh, &faces[f].node, &prepared.patches[f], &part.faceTrees[f], held.faces[f] != 0,
+                     held.places[f]});
   }
   std::vector<JointEdge> edges;
   for (std::size_t e = 0; e < brep.edges.size(); ++e) {

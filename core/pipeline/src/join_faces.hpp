@@ -5,16 +5,21 @@
 #include "mesh_faces.hpp"
 #include "part.hpp"
 #include "prepare.hpp"
+#include "qmcf/cleanup/joint_relaxation.hpp"
 #include "shared_nodes.hpp"
 
 namespace qmcf {
 
-/// Relaxes the faces' meshes together, across the edges that they share, and moves the nodes on these.
-/// held: per face, 1 if it stays as it is. Errors:
+/// What is left out of the faces' relaxation.
+struct Held {
+  std::vector<char> faces;                         ///< Per face: 1 if it stays as it is.
+  std::vector<std::vector<Surroundings>> places;  ///< Per face: where it does.
+};
+
+/// Relaxes the faces' meshes together, across the edges that they share, and moves the nodes on these. Errors:
 /// cancelled.
 Result<std::int64_t> relaxJoint(const Part& part, const PreparedFaces& prepared, std::vector<SharedFace>& faces,
-                                const std::vector<char>& held, SharedNodes& shared, double sizeScale,
-                                Progress& progress);
+                                const Held& held, SharedNodes& shared, double sizeScale, Progress& progress);
 
 /// Joins the faces' meshes at the nodes that they share. Faces without elements are left out.
 QuadMesh joinFaces(const SharedNodes& shared, const std::vector<SharedFace>& faces);

@@ -2,6 +2,7 @@
 #include "mesh_run.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <optional>
@@ -25,8 +26,11 @@ constexpr double kLowestSize = 0.02;
 constexpr double kMostGrowth = 1.5;
 constexpr std::size_t kFewFaults = 10;
 constexpr double kFewElements = 300.0;
-/// How often faces are held where relaxing all together leaves elements that are not valid; the last time, all are.
-constexpr int kMaxHolds = 3;
+/// How often more is held where relaxing all together leaves elements that are not valid: what is so many elements away
+/// from these, then their faces; the last time all faces are.
+constexpr std::array<double, 4> kHeldElements{3.0, 6.0, 6.0, 6.0};
+constexpr int kLocalHolds = 2;
+constexpr int kMaxHolds = kHeldElements.size();
 /// How often faces are made of the part's own triangles before a mesh is given up.
 constexpr int kMaxGivenRounds = 5;
 constexpr std::size_t kMostGiven = 10000;  ///< Triangles of such a face, besides twice the elements.
@@ -123,9 +127,7 @@ class MeshRun {
       keepUnchanged(sizes_.trial.prepared, prepared.value());
       sizes_.trial.prepared = std::move(prepared).value();
       if (const auto error = meshChanged(part_, sizes_.trial, progress_)) return error;
-      const auto separate = shareFaces();
-      if (!separate) return separate.error();
-      auto made = join(separate.value(), std::vector<char>(brep_.faces.size(), 1));
+      auto made = attempt();
       if (!made) return made.error();
       atFault = facesAtFault(made.value().mesh, made.value().quality, brep_);
       if (countFaults(made.value().quality) < countFaults(result_.quality)) {
@@ -145,6 +147,7 @@ class MeshRun {
     std::vector<FaceReport> faces;
     std::vector<FaceTrace> traces;
     std::int64_t heldFaces = 0;
+    std::int64_t heldPlaces = 0;
     std::int64_t slidNodes = 0;
     QualityReport quality;
     std::vector<SizeLimit> limits;  ///< Where smaller elements may make it valid.
@@ -174,18 +177,27 @@ class MeshRun {
     return forEachFace(part_, trial, uncut, progress_, cut);
   }
 
-  /// The faces' meshes as one, relaxed together. Faces that this would cost their validity are held, in the end all.
+  /// The faces' meshes as one, relaxed together. Places that this would cost their validity are held, then their faces,
+  /// in the end all.
   Result<Attempt> attempt() {
     const auto faultsOf = [](const Attempt& made) { return halvedWhereInvalid(made.mesh, made.quality); };
-    std::vector<char> held(brep_.faces.size(), 0);
+    Held held;
+    held.places.resize(brep_.faces.size());
+    // The part's own triangles are where they belong.
+    for (const Given given : sizes_.trial.prepared.given) held.faces.push_back(given == Given::nothing ? 0 : 1);
     const auto separate = shareFaces();
     if (!separate) return separate.error();
     auto best = join(separate.value(), held);
     if (!best) return best;
     std::vector<SizeLimit> faults = faultsOf(best.value());
     for (int round = 0; round < kMaxHolds && !faults.empty(); ++round) {
-      for (const SizeLimit& fault : faults) held[static_cast<std::size_t>(fault.face)] = 1;
-      if (round + 1 == kMaxHolds) held.assign(held.size(), 1);
+      for (const SizeLimit& fault : faults) {
+        const auto f = static_cast<std::size_t>(fault.face);
+        // The limit is half the size of the element at fault.
+        held.places[f].push_back({fault.position, 2.0 * kHeldElements[static_cast<std::size_t>(round)] * fault.size});
+        if (round >= kLocalHolds) held.faces[f] = 1;
+      }
+      if (round + 1 == kMaxHolds) held.faces.assign(held.faces.size(), 1);
       auto made = join(separate.value(), held);
       if (!made) return made;
       faults = faultsOf(made.value());
@@ -208,8 +220,7 @@ class MeshRun {
     return separate;
   }
 
-  /// held: per face, 1 if it is not relaxed with the others.
-  Result<Attempt> join(const SeparateFaces& separate, const std::vector<char>& held) {
+  Result<Attempt> join(const SeparateFaces& separate, const Held& held) {
     const Trial& trial = sizes_.trial;
     Attempt made;
     SharedNodes shared = separate.nodes;
@@ -217,7 +228,11 @@ class MeshRun {
     const auto slid = relaxJoint(part_, trial.prepared, faces, held, shared, 1.0 / coarsening_, progress_);
     if (!slid) return slid.error();
     made.slidNodes = slid.value();
-    made.heldFaces = std::count(held.begin(), held.end(), 1);
+    for (std::size_t f = 0; f < faces.size(); ++f) {
+      if (trial.prepared.given[f] != Given::nothing) continue;
+      made.heldFaces += held.faces[f];
+      made.heldPlaces += held.faces[f] != 0 ? 0 : static_cast<std::int64_t>(held.places[f].size());
+    }
     for (std::size_t f = 0; f < faces.size(); ++f) {
       if (trial.covered.turned[f] != 0) turnRound(faces[f].mesh);
     }
@@ -251,6 +266,7 @@ class MeshRun {
     if (part_.traceScale) result_.trace = MeshTrace{*part_.traceScale, std::move(made.traces)};
     result_.quality = std::move(made.quality);
     result_.heldFaces = made.heldFaces;
+    result_.heldPlaces = made.heldPlaces;
     result_.slidNodes = made.slidNodes;
     result_.fieldSingularities = 0;
     for (const CrossField& field : prepared.fields) {

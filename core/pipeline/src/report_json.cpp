@@ -193,6 +193,7 @@ std::string toJson(const MeshResult& result) {
                {"fieldSingularities", result.fieldSingularities},
                {"refinedPlaces", result.refinedPlaces},
                {"heldFaces", result.heldFaces},
+               {"heldPlaces", result.heldPlaces},
                {"slidNodes", result.slidNodes},
                {"fittedSizes", result.fittedSizes},
                {"sizing", toValue(result.sizing)},

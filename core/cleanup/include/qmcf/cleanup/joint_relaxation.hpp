@@ -13,6 +13,12 @@
 
 namespace qmcf {
 
+/// What is within a distance of a point.
+struct Surroundings {
+  Vec3 centre;
+  double radius = 0.0;
+};
+
 /// The mesh of one face, to be relaxed together with its neighbours.
 struct JointFace {
   FaceMesh* mesh = nullptr;                         ///< In and out; without elements it takes no part.
@@ -20,6 +26,7 @@ struct JointFace {
   const Patch* patch = nullptr;
   const TriangleBvh* target = nullptr;  ///< The face's input triangles.
   bool held = false;                    ///< Stays as it is, with the nodes on its edges.
+  std::vector<Surroundings> heldPlaces{};  ///< Only what is in these does.
 };
 
 /// The nodes along one edge of the B-rep.
