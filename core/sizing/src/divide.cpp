@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <cstddef>
 #include <iterator>
@@ -143,6 +144,17 @@ std::int64_t makeEven(std::vector<Plan>& plans, const Brep& brep) {
   return solution.oddFaces;
 }
 
+/// Faces with an odd number of divisions around them.
+[[maybe_unused]] std::int64_t oddFacesOf(const std::vector<Plan>& plans, const Brep& brep) {
+  return std::count_if(brep.faces.begin(), brep.faces.end(), [&](const BrepFace& face) {
+    std::int32_t sum = 0;
+    for (const BrepLoop& loop : face.loops) {
+      for (const Coedge& coedge : loop.coedges) sum += plans[static_cast<std::size_t>(coedge.edge)].count;
+    }
+    return sum % 2 != 0;
+  });
+}
+
 /// A face inside a loop of two edges has no room for a triangle: loops get three at least, by steps that keep parity.
 void fillSmallLoops(std::vector<Plan>& plans, const Brep& brep) {
   for (const BrepFace& face : brep.faces) {
@@ -208,6 +220,7 @@ DividedEdges divideEdges(const TriangleMesh& mesh, const Brep& brep, const SizeF
   divided.oddFaces = makeEven(plans, brep);
   balance(plans, mesh, brep);
   fillSmallLoops(plans, brep);
+  assert(oddFacesOf(plans, brep) == divided.oddFaces);
   for (const BrepVertex& vertex : brep.vertices) {
     divided.nodes.push_back(mesh.positions[static_cast<std::size_t>(vertex.point)]);
     divided.nodeSize.push_back(0.0);

@@ -255,6 +255,13 @@ struct Change {
   [[nodiscard]] std::size_t id() const { return 2 * at(edge) + (by > 0 ? 1 : 0); }
 };
 
+/// One as a step of a walk over the faces. The same change the other way is another step: the walk goes on elsewhere.
+struct Step : Change {
+  std::int32_t to = kNone;  ///< The face that it leads to: index into the faces beside the edge.
+
+  [[nodiscard]] std::size_t stepId() const { return 2 * id() + static_cast<std::size_t>(to); }
+};
+
 class Balance {
  public:
   Balance(const TriangleMesh& mesh, const Brep& brep, std::vector<EdgeCount>& edges)
@@ -274,7 +281,7 @@ class Balance {
         terms_[at(rows_[r].edges[i])].push_back({rows_[r].face, r, rows_[r].factors[i]});
       }
     }
-    label_.resize(2 * edges_.size());
+    label_.resize(4 * edges_.size());
     cost_.resize(2 * edges_.size());
     for (std::size_t e = 0; e < edges_.size(); ++e) price(static_cast<std::int32_t>(e));
   }
@@ -296,11 +303,10 @@ class Balance {
     std::size_t row = 0;
     std::int32_t factor = 0;
   };
-  /// The cheapest known walk that ends with a change.
+  /// The cheapest known walk that ends with a step.
   struct Label {
     double cost = std::numeric_limits<double>::infinity();
-    Change before;              ///< None: the walk starts here.
-    std::int32_t next = kNone;  ///< The face that the walk goes on to.
+    Step before;  ///< None: the walk starts here.
     bool queued = false;
   };
 
@@ -353,10 +359,17 @@ class Balance {
     return cost;
   }
 
-  [[nodiscard]] bool passes(const Change& end, std::int32_t face, std::int32_t start) const {
+  /// Over an edge away from one of the faces beside it.
+  [[nodiscard]] Step stepFrom(std::int32_t face, const Change& change) const {
+    return {change, uses_[at(change.edge)][0] == face ? 1 : 0};
+  }
+
+  [[nodiscard]] std::int32_t faceAfter(const Step& step) const { return uses_[at(step.edge)][at(step.to)]; }
+
+  [[nodiscard]] bool passes(const Step& end, std::int32_t face, std::int32_t start) const {
     if (face == start) return true;
-    for (Change c = end; c.edge != kNone; c = label_[c.id()].before) {
-      if (label_[c.id()].next == face) return true;
+    for (Step s = end; s.edge != kNone; s = label_[s.stepId()].before) {
+      if (faceAfter(s) == face) return true;
     }
     return false;
   }
@@ -382,17 +395,16 @@ class Balance {
   /// Closed walks from `start` over other faces back to it by the change `last`. Of a walk that lowers the cost some
   /// rotation has no beginning that raises it, so that such beginnings need not be followed.
   void search(std::int32_t start, const Change& last, double& best, std::vector<Change>& bestWalk) {
-    std::vector<Change> queue;
-    std::vector<Change> touched;
-    const auto reach = [&](const Change& before, const Change& change, double cost, std::int32_t next) {
-      Label& label = label_[change.id()];
+    std::vector<Step> queue;
+    std::vector<Step> touched;
+    const auto reach = [&](const Step& before, const Step& step, double cost) {
+      Label& label = label_[step.stepId()];
       if (cost >= label.cost - kLeastGain || cost >= -kLeastGain) return;
-      if (before.edge != kNone && passes(before, next, start)) return;
-      if (label.cost == std::numeric_limits<double>::infinity()) touched.push_back(change);
+      if (before.edge != kNone && passes(before, faceAfter(step), start)) return;
+      if (label.cost == std::numeric_limits<double>::infinity()) touched.push_back(step);
       label.cost = cost;
       label.before = before;
-      label.next = next;
-      if (!label.queued) queue.push_back(change);
+      if (!label.queued) queue.push_back(step);
       label.queued = true;
     };
     const std::int32_t lastFace = beyond(last.edge, start);
@@ -401,34 +413,34 @@ class Balance {
       if (edge == last.edge) continue;
       for (const std::int32_t by : {-1, 1}) {
         const Change change{edge, by};
-        if (allowed(change)) reach({}, change, costIn(start, last, change) + costOf(change), beyond(edge, start));
+        if (allowed(change)) reach({}, stepFrom(start, change), costIn(start, last, change) + costOf(change));
       }
     }
     for (std::size_t i = 0; i < queue.size() && budget_ > 0; ++i) {
-      const Change change = queue[i];
-      label_[change.id()].queued = false;
-      const double cost = label_[change.id()].cost;
-      const std::int32_t face = label_[change.id()].next;
+      const Step step = queue[i];
+      label_[step.stepId()].queued = false;
+      const double cost = label_[step.stepId()].cost;
+      const std::int32_t face = faceAfter(step);
       budget_ -= static_cast<std::int64_t>(changing_[at(face)].size());
       if (face == lastFace) {
-        const double total = cost + lastCost + (face == ground_ ? 0.0 : costIn(face, change, last));
+        const double total = cost + lastCost + (face == ground_ ? 0.0 : costIn(face, step, last));
         if (total < best) {
           best = total;
           bestWalk = {last};
-          for (Change c = change; c.edge != kNone; c = label_[c.id()].before) bestWalk.push_back(c);
+          for (Step s = step; s.edge != kNone; s = label_[s.stepId()].before) bestWalk.push_back(s);
         }
       }
       for (const std::int32_t edge : changing_[at(face)]) {
-        if (edge == change.edge || edge == last.edge) continue;
+        if (edge == step.edge || edge == last.edge) continue;
         for (const std::int32_t by : {-1, 1}) {
           const Change next{edge, by};
           if (!allowed(next)) continue;
-          const double inFace = face == ground_ ? 0.0 : costIn(face, change, next);
-          reach(change, next, cost + inFace + costOf(next), beyond(edge, face));
+          const double inFace = face == ground_ ? 0.0 : costIn(face, step, next);
+          reach(step, stepFrom(face, next), cost + inFace + costOf(next));
         }
       }
     }
-    for (const Change& change : touched) label_[change.id()] = {};
+    for (const Step& step : touched) label_[step.stepId()] = {};
   }
 
   static constexpr double kLeastGain = 1e-6;
@@ -441,7 +453,7 @@ class Balance {
   std::vector<std::vector<std::size_t>> rowsOfFace_;
   std::vector<std::vector<std::int32_t>> changing_;  ///< Per face, and beyond the open edges: edges that may change.
   std::int32_t ground_ = 0;                          ///< Stands for a face beyond the open edges.
-  std::vector<Label> label_;                         ///< Per change.
+  std::vector<Label> label_;                         ///< Per step.
   std::vector<double> cost_;                         ///< Per change that is allowed.
   std::int64_t budget_ = 50'000'000;
 };
