@@ -14,8 +14,8 @@
 namespace qmcf {
 namespace {
 
-/// How often the faces are meshed again for a number of elements that is nearer to the one asked for. Large numbers come
-/// out nearer by themselves.
+/// How often the faces are meshed again for a number of elements that is nearer to the one asked for. Large numbers
+/// come out nearer by themselves.
 constexpr int kMostTrials = 2;
 constexpr std::int64_t kManyElements = 10'000;
 /// The field hardly changes with the size: so many elements tell enough of it.

@@ -11,8 +11,8 @@ Result<std::int64_t> relaxJoint(const Part& part, const PreparedFaces& prepared,
   const Brep& brep = part.brep;
   std::vector<JointFace> joint;
   for (std::size_t f = 0; f < faces.size(); ++f) {
-    joint.push_back({&faces[f].mesh, &faces[f].node, &prepared.patches[f], &part.faceTrees[f], held.faces[f] != 0,
-                     held.places[f]});
+    joint.push_back(
+        {&faces[f].mesh, &faces[f].node, &prepared.patches[f], &part.faceTrees[f], held.faces[f] != 0, held.places[f]});
   }
   std::vector<JointEdge> edges;
   for (std::size_t e = 0; e < brep.edges.size(); ++e) {

@@ -12,7 +12,7 @@ namespace qmcf {
 
 /// What is left out of the faces' relaxation.
 struct Held {
-  std::vector<char> faces;                         ///< Per face: 1 if it stays as it is.
+  std::vector<char> faces;                        ///< Per face: 1 if it stays as it is.
   std::vector<std::vector<Surroundings>> places;  ///< Per face: where it does.
 };
 

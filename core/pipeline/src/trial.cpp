@@ -25,8 +25,7 @@ MeshedFace omittedFace(std::int32_t face, std::int32_t below) {
 
 Result<Trial> makeTrial(const Part& part, const MeshOptions& options, PreparedFaces prepared, Progress& progress) {
   // Elements that are cut up have a vertex of their own each, so that those of two layers always are told apart.
-  CoveredFaces covered =
-      options.allQuad ? noneCovered(part.brep) : coveredFaces(part, kTellApart * prepared.size.base);
+  CoveredFaces covered = options.allQuad ? noneCovered(part.brep) : coveredFaces(part, kTellApart * prepared.size.base);
   Trial trial{std::move(prepared), std::move(covered), std::vector<MeshedFace>(part.brep.faces.size())};
   if (const auto error = meshChanged(part, trial, progress)) return *error;
   return trial;

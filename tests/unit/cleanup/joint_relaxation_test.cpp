@@ -53,8 +53,9 @@ class Square {
     nodes[v] = mesh.positions[v] = edge.curve.at(edge.arcLength[index]);
   }
 
-  std::int64_t relax(int rounds = JointRelaxationOptions{}.rounds, bool held = false) {
-    std::vector<JointFace> faces{{&mesh, &node, &patch, &tree, held}};
+  std::int64_t relax(int rounds = JointRelaxationOptions{}.rounds, bool held = false,
+                     const std::vector<Surroundings>& heldPlaces = {}) {
+    std::vector<JointFace> faces{{&mesh, &node, &patch, &tree, held, heldPlaces}};
     SilentProgress silent;
     JointRelaxationOptions options;
     options.rounds = rounds;
@@ -93,6 +94,29 @@ TEST(RelaxTogether, SlidesNodesBackWhereTheElementsWantThem) {
       EXPECT_EQ(sheared.nodes[n], sheared.mesh.positions[n]);
     }
   }
+}
+
+TEST(RelaxTogether, KeepsWhatIsInHeldPlaces) {
+  Square square;
+  for (std::size_t i = 1; i < kCells; ++i) {
+    square.shift(0, i, 0.3);
+    square.shift(2, i, 0.3);
+  }
+  square.mesh.positions[static_cast<std::size_t>(square.vertexAt({0.5, 0.5, 0.0}))].x += 0.6 / kCells;
+  const std::vector<Vec3> before = square.mesh.positions;
+  // Half of the lower side, and what is above it.
+  const Surroundings place{{0.0, 0.0, 0.0}, 0.55};
+  EXPECT_GT(square.relax(JointRelaxationOptions{}.rounds, false, {place}), kCells / 2);
+  std::size_t moved = 0;
+  for (std::size_t v = 0; v < before.size(); ++v) {
+    const bool stayed = square.mesh.positions[v] == before[v];
+    if (distance(before[v], place.centre) <= place.radius) {
+      EXPECT_TRUE(stayed) << v;
+    } else {
+      moved += stayed ? 0 : 1;
+    }
+  }
+  EXPECT_GT(moved, static_cast<std::size_t>(kCells));
 }
 
 TEST(RelaxTogether, MakesTheWorstElementsBetterInTheEnd) {

@@ -3,7 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
+#include <map>
 
 #include "qmcf/base/random.hpp"
 #include "qmcf/sizing/edge_curve.hpp"
@@ -84,6 +87,55 @@ TEST(DivideEdges, EveryFaceOfABoxOfAnySizeIsEven) {
   }
 }
 
+/// A block of columns with heights of 1 to 3: flat faces of many outlines, beside each other in many ways.
+TriangleMesh columns(std::uint64_t seed) {
+  constexpr int kCount = 5;
+  Random random(seed);
+  int height[kCount + 2][kCount + 2] = {};
+  for (int i = 1; i <= kCount; ++i) {
+    for (int j = 1; j <= kCount; ++j) height[i][j] = 1 + static_cast<int>(random.next() % 3);
+  }
+  TriangleMesh mesh;
+  std::map<std::array<int, 3>, std::int32_t> vertices;
+  const auto vertex = [&](int x, int y, int z) {
+    const auto added = vertices.try_emplace({x, y, z}, static_cast<std::int32_t>(mesh.positions.size()));
+    if (added.second) mesh.positions.push_back({1.0 * x, 1.3 * y, 0.7 * z});
+    return added.first->second;
+  };
+  const auto quad = [&](std::int32_t a, std::int32_t b, std::int32_t c, std::int32_t d) {
+    mesh.triangles.push_back({a, b, c});
+    mesh.triangles.push_back({a, c, d});
+  };
+  for (int i = 1; i <= kCount; ++i) {
+    for (int j = 1; j <= kCount; ++j) {
+      const int h = height[i][j];
+      const int x = i;
+      const int y = j;
+      quad(vertex(x, y, h), vertex(x + 1, y, h), vertex(x + 1, y + 1, h), vertex(x, y + 1, h));
+      quad(vertex(x, y, 0), vertex(x, y + 1, 0), vertex(x + 1, y + 1, 0), vertex(x + 1, y, 0));
+      for (int z = height[i - 1][j]; z < h; ++z)
+        quad(vertex(x, y + 1, z), vertex(x, y, z), vertex(x, y, z + 1), vertex(x, y + 1, z + 1));
+      for (int z = height[i + 1][j]; z < h; ++z)
+        quad(vertex(x + 1, y, z), vertex(x + 1, y + 1, z), vertex(x + 1, y + 1, z + 1), vertex(x + 1, y, z + 1));
+      for (int z = height[i][j - 1]; z < h; ++z)
+        quad(vertex(x, y, z), vertex(x + 1, y, z), vertex(x + 1, y, z + 1), vertex(x, y, z + 1));
+      for (int z = height[i][j + 1]; z < h; ++z)
+        quad(vertex(x + 1, y + 1, z), vertex(x, y + 1, z), vertex(x, y + 1, z + 1), vertex(x + 1, y + 1, z + 1));
+    }
+  }
+  return mesh;
+}
+
+TEST(DivideEdges, FacesStayEvenWhileRowsAreBalanced) {
+  for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+    for (const double size : {0.13, 0.21, 0.34}) {
+      const Divided d = divide(columns(seed), size);
+      EXPECT_EQ(d.edges.oddFaces, 0);
+      EXPECT_EQ(oddFaces(d), 0) << "seed " << seed << ", size " << size;
+    }
+  }
+}
+
 TEST(DivideEdges, MinimaAreKeptAndFacesStayEven) {
   Random random(5);
   for (int i = 0; i < 60; ++i) {
@@ -148,6 +200,28 @@ TEST(DivideEdges, SidesOfAnLMatchInSum) {
   const Divided d = divide(parts::sheet({0, 3.4, 6.8}, {0, 5, 10}, [](int i, int j) { return i == 0 || j == 0; }), 1.0);
   EXPECT_EQ(d.edges.oddFaces, 0);
   EXPECT_EQ(divisionsAt(d, 0.0), divisionsAt(d, 5.0) + divisionsAt(d, 10.0));
+}
+
+TEST(DivideEdges, SidesBetweenSlantedEndsMatchWhereThereIsOneRow) {
+  // A prism over a trapezoid with corners of 45 and 135 degrees, whose sides by their lengths would have 12 and 10
+  // divisions, or 12 and 4.
+  const auto trapezoid = [](double height) {
+    TriangleMesh mesh;
+    for (const double z : {0.0, 5.3}) {
+      mesh.positions.insert(mesh.positions.end(),
+                            {{0, 0, z}, {12, 0, z}, {12 - height, height, z}, {height, height, z}});
+    }
+    mesh.triangles = {{0, 2, 1}, {0, 3, 2}, {4, 5, 6}, {4, 6, 7}};
+    for (std::int32_t i = 0; i < 4; ++i) {
+      const std::int32_t j = (i + 1) % 4;
+      mesh.triangles.insert(mesh.triangles.end(), {{i, j, j + 4}, {i, j + 4, i + 4}});
+    }
+    return divide(mesh, 1.0);
+  };
+  const Divided narrow = trapezoid(1.0);
+  EXPECT_EQ(divisionsAt(narrow, 0.0), divisionsAt(narrow, 1.0));
+  const Divided wide = trapezoid(4.0);
+  EXPECT_GT(divisionsAt(wide, 0.0), divisionsAt(wide, 4.0) + 4);
 }
 
 TEST(DivideEdges, OuterSidesOfANarrowFrameHaveTwoDivisionsMore) {

@@ -107,6 +107,22 @@ TEST(SizeField, NarrowGapsRefineAndOpenSpacesDoNot) {
   EXPECT_DOUBLE_EQ(farAway, 1.0);
 }
 
+TEST(SizeField, TipsOfWedgesDoNotRefine) {
+  // Two legs of 10 with 20 degrees between them: the gap is narrower than the size up to 2.9 from the tip.
+  const double angle = 20.0 * 3.141592653589793 / 180.0;
+  TriangleMesh wedge;
+  wedge.positions = {{0, 0, 0}, {10, 0, 0}, {10 * std::cos(angle), 10 * std::sin(angle), 0}};
+  wedge.triangles = {{0, 1, 2}};
+  const SizeField field = sizesOf(wedge, parts::brepOf(wedge), ofSize(1.0));
+  EXPECT_GT(smallest(field), 0.55);
+  // The same legs without the tip are sides of a strip that narrows.
+  const auto onLeg = [angle](double s) { return Vec3{s * std::cos(angle), s * std::sin(angle), 0}; };
+  TriangleMesh strip;
+  strip.positions = {{0.5, 0, 0}, {10, 0, 0}, onLeg(10), onLeg(0.5)};
+  strip.triangles = {{0, 1, 2}, {0, 2, 3}};
+  EXPECT_LT(smallest(sizesOf(strip, parts::brepOf(strip), ofSize(1.0))), 0.5);
+}
+
 TEST(SizeField, IsTheSameOnBothSidesOfAStripOneElementWide) {
   // A narrow tower makes for small elements on the upper side of the strip below it.
   const auto isThere = [](int i, int j) { return j == 0 || i == 1; };

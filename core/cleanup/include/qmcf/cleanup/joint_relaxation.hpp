@@ -24,8 +24,8 @@ struct JointFace {
   FaceMesh* mesh = nullptr;                         ///< In and out; without elements it takes no part.
   const std::vector<std::int32_t>* node = nullptr;  ///< Per vertex of the mesh: the node that it shares; kNone inside.
   const Patch* patch = nullptr;
-  const TriangleBvh* target = nullptr;  ///< The face's input triangles.
-  bool held = false;                    ///< Stays as it is, with the nodes on its edges.
+  const TriangleBvh* target = nullptr;     ///< The face's input triangles.
+  bool held = false;                       ///< Stays as it is, with the nodes on its edges.
   std::vector<Surroundings> heldPlaces{};  ///< Only what is in these does.
 };
 
