@@ -72,7 +72,7 @@ constexpr double kOneRow = 1.6;  ///< As for meshStrip().
 
 /// In a face of one or two rows there is no room for the two irregular vertices: they become triangles.
 double weightOf(double rows) {
-  constexpr double kNarrow = 3.0;
+  constexpr double kNarrow = 5.0;
   return rows < kFewRows ? kNarrow : 1.0;
 }
 
