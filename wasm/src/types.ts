@@ -412,7 +412,7 @@ export interface MeshReport {
   readonly refinedPlaces: number;
   /** Faces that were not relaxed together with the others, across their edges, because they would not be valid then. */
   readonly heldFaces: number;
-  /** Places in the others: elements around which nothing was, for the same reason. */
+  /** Places in the others where nothing was, for the same reason. */
   readonly heldPlaces: number;
   /** Nodes that the others moved along their edges by more than a tenth of the element size. */
   readonly slidNodes: number;

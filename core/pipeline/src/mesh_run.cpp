@@ -48,6 +48,18 @@ QualityOptions qualityOptions(const MeshOptions& options, double size) {
   return quality;
 }
 
+/// Adds what is around a point, or makes the place larger that it is in already.
+void holdPlace(std::vector<Surroundings>& places, const Vec3& centre, double radius) {
+  const auto around = std::find_if(places.begin(), places.end(), [&](const Surroundings& place) {
+    return distance(place.centre, centre) <= place.radius;
+  });
+  if (around == places.end()) {
+    places.push_back({centre, radius});
+  } else {
+    around->radius = std::max(around->radius, radius);
+  }
+}
+
 /// Meshes an inspected part; as long as the mesh is not valid and smaller elements may help, once more with these.
 class MeshRun {
  public:
@@ -194,7 +206,7 @@ class MeshRun {
       for (const SizeLimit& fault : faults) {
         const auto f = static_cast<std::size_t>(fault.face);
         // The limit is half the size of the element at fault.
-        held.places[f].push_back({fault.position, 2.0 * kHeldElements[static_cast<std::size_t>(round)] * fault.size});
+        holdPlace(held.places[f], fault.position, 2.0 * kHeldElements[static_cast<std::size_t>(round)] * fault.size);
         if (round >= kLocalHolds) held.faces[f] = 1;
       }
       if (round + 1 == kMaxHolds) held.faces.assign(held.faces.size(), 1);

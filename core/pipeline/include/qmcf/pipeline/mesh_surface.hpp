@@ -115,7 +115,7 @@ struct MeshResult {
   std::int64_t refinedPlaces = 0;  ///< Where elements of the size asked for could not follow the part: smaller there.
   /// Faces that were not relaxed together with the others, across their edges, because they would not be valid then.
   std::int64_t heldFaces = 0;
-  std::int64_t heldPlaces = 0;     ///< In the others: elements around which nothing was, for the same reason.
+  std::int64_t heldPlaces = 0;     ///< Places in the others where nothing was, for the same reason.
   std::int64_t slidNodes = 0;      ///< Nodes that the others moved along their edges by more than a tenth of the size.
   std::optional<MeshTrace> trace;  ///< If it was asked for.
 };
