@@ -1,4 +1,4 @@
-import type { MeshResult, QualityReport } from 'qmcf';
+import type { MeshReport, MeshResult, QualityReport } from 'qmcf';
 import { button, el, show } from '../dom.js';
 import * as format from '../format.js';
 import { optionsKey, type Made, type Store, type Target } from '../state.js';
@@ -25,13 +25,15 @@ export function resultSection(store: Store, zoomTo: (target: Target) => void): H
 
 function report({ result, seconds }: Made<MeshResult>, zoomTo: (target: Target) => void): HTMLElement[] {
   const { quality, repair } = result.report;
+  const exceptions = exceptionsOf(result.report);
   return [
     verdict(quality),
     headline(quality),
     histogram(result.elementScaledJacobian),
     worstElement(result, zoomTo),
-    figures(quality, result.size),
+    figures(result.report, result.size),
     methods(result, zoomTo),
+    ...(exceptions === '' ? [] : [el('p', { class: 'facts' }, exceptions)]),
     ...repairReport(repair),
     el('p', { class: 'facts' }, `Made in ${format.duration(seconds)}, element size ${format.length(result.size)}.`),
   ];
@@ -88,7 +90,7 @@ function histogram(values: Float64Array): HTMLElement {
   );
 }
 
-function figures(quality: QualityReport, size: number): HTMLElement {
+function figures({ quality, sizeConformity }: MeshReport, size: number): HTMLElement {
   const shapes: [string, QualityReport['scaledJacobian']][] = [
     ['Scaled Jacobian', quality.scaledJacobian],
     ['Jacobian ratio', quality.jacobianRatio],
@@ -97,7 +99,7 @@ function figures(quality: QualityReport, size: number): HTMLElement {
   ];
   const distance = quality.largestDistance;
   const singles: [string, string][] = [
-    ['Size off by, mean', `${format.figure(quality.sizeError)} octaves`],
+    ['Off the size wanted, mean', `${format.figure(sizeConformity.meanAbsLog2)} octaves`],
     ['Sharp edges kept', format.percent(quality.sharpRecall)],
     ['Corners kept', format.percent(quality.cornerRecall)],
     ...(typeof quality.boundaryRecall === 'number'
@@ -121,6 +123,21 @@ function worstElement({ elementScaledJacobian }: MeshResult, zoomTo: (target: Ta
   const go = button(icons.zoom(), { class: 'button icon-text worst' }, () => zoomTo({ kind: 'element', id: worst }));
   go.append(label);
   return go;
+}
+
+/** Where the mesh could not be made as everywhere else. */
+function exceptionsOf({ refinedPlaces, heldFaces, heldPlaces }: MeshReport): string {
+  const told: string[] = [];
+  if (refinedPlaces > 0) {
+    told.push(`Smaller elements at ${format.counted(refinedPlaces, 'place')} that elements of the size could not follow.`);
+  }
+  if (heldFaces > 0) {
+    told.push(`${format.counted(heldFaces, 'face')} not relaxed with the others: the mesh would not be valid.`);
+  }
+  if (heldPlaces > 0) {
+    told.push(`${format.counted(heldPlaces, 'place')} not relaxed: the mesh would not be valid.`);
+  }
+  return told.join(' ');
 }
 
 /** How the faces were meshed, and each one that another method than the first had to mesh. */
