@@ -374,6 +374,14 @@ class Balance {
     return false;
   }
 
+  /// Whether a walk passes each face once. It may not: the way to a step that it goes on from can have changed since.
+  [[nodiscard]] bool passesOnce(const Step& end) {
+    passed_.clear();
+    for (Step s = end; s.edge != kNone; s = label_[s.stepId()].before) passed_.push_back(faceAfter(s));
+    std::sort(passed_.begin(), passed_.end());
+    return std::adjacent_find(passed_.begin(), passed_.end()) == passed_.end();
+  }
+
   /// Applies the best closed walk that starts in `face` and lowers the cost.
   bool improve(std::int32_t face) {
     double best = -kLeastGain;
@@ -424,7 +432,7 @@ class Balance {
       budget_ -= static_cast<std::int64_t>(changing_[at(face)].size());
       if (face == lastFace) {
         const double total = cost + lastCost + (face == ground_ ? 0.0 : costIn(face, step, last));
-        if (total < best) {
+        if (total < best && passesOnce(step)) {
           best = total;
           bestWalk = {last};
           for (Step s = step; s.edge != kNone; s = label_[s.stepId()].before) bestWalk.push_back(s);
@@ -454,6 +462,7 @@ class Balance {
   std::vector<std::vector<std::int32_t>> changing_;  ///< Per face, and beyond the open edges: edges that may change.
   std::int32_t ground_ = 0;                          ///< Stands for a face beyond the open edges.
   std::vector<Label> label_;                         ///< Per step.
+  std::vector<std::int32_t> passed_;                 ///< Scratch of passesOnce().
   std::vector<double> cost_;                         ///< Per change that is allowed.
   std::int64_t budget_ = 50'000'000;
 };
