@@ -20,7 +20,7 @@ const GOALS = {
 /** Most that a run may take in units of the smallest one's seconds per n log n; what is above 1 is noise. */
 const GROWTH = 1.1;
 const CPU_LIMIT = 300;
-const runsFor = (quads) => (quads <= 20000 ? 3 : 1);
+const runsFor = (quads) => (quads <= 100000 ? 3 : 1);
 
 const best = (runs) => runs.reduce((least, run) => (run.cpuSeconds < least.cpuSeconds ? run : least));
 
