@@ -108,7 +108,7 @@ class JointRelaxation {
         if (std::binary_search(stays.begin(), stays.end(), edges[e].arcLength[i])) continue;
         const std::vector<Occurrence>& at = occurrences_[nodeOf({e, i})];
         const bool isHeld = std::any_of(at.begin(), at.end(), [&](const Occurrence& o) {
-          return faces[o.face].held || (!stays_[o.face].empty() && stays_[o.face][o.vertex] != 0);
+          return faces[o.face].held || stays_[o.face][o.vertex] != 0;
         });
         if (!isHeld) sliders_.push_back({e, i});
       }
@@ -148,14 +148,15 @@ class JointRelaxation {
   }
 
  private:
-  /// Per vertex of a face's mesh, 1 if it is in one of the held places; empty where there are none.
+  /// Per vertex of a face's mesh, 1 if it is in one of the held places.
   [[nodiscard]] IdMap<VertexId, char> heldVertices(std::size_t face) const {
-    const std::vector<Surroundings>& places = faces_[face].heldPlaces;
+    const std::vector<Ball>& places = faces_[face].heldPlaces;
     const EditMesh& mesh = meshes_[face];
-    IdMap<VertexId, char> stays(places.empty() ? 0 : mesh.vertexCapacity());
+    IdMap<VertexId, char> stays(mesh.vertexCapacity(), 0);
+    if (places.empty()) return stays;
     for (const VertexId v : IdRange<VertexId>(stays.size())) {
       if (!mesh.alive(v)) continue;
-      const bool isHeld = std::any_of(places.begin(), places.end(), [&](const Surroundings& place) {
+      const bool isHeld = std::any_of(places.begin(), places.end(), [&](const Ball& place) {
         return squaredNorm(mesh.position(v) - place.centre) <= place.radius * place.radius;
       });
       stays[v] = isHeld ? 1 : 0;

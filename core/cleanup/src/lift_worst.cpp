@@ -56,8 +56,9 @@ std::vector<VertexId> WorstLift::dueVertices() const {
     const FaceId f(i);
     if (mesh_.kind(f) == FaceKind::removed) continue;
     const auto isDue = [&](HalfedgeId h) {
-      if (!h.valid() || awake_[mesh_.origin(h)] == 0 || mesh_.isBoundary(mesh_.origin(h))) return false;
-      return stays_.empty() || stays_[mesh_.origin(h)] == 0;
+      if (!h.valid()) return false;
+      const VertexId v = mesh_.origin(h);
+      return awake_[v] != 0 && stays_[v] == 0 && !mesh_.isBoundary(v);
     };
     const auto sides = mesh_.sides(f);
     if (std::none_of(sides.begin(), sides.end(), isDue) || faceShape(mesh_, f) >= enough_) continue;

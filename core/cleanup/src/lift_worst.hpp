@@ -9,7 +9,7 @@ namespace qmcf {
 /// element around them is best, by pattern search. No element around becomes worse than the worst there was.
 class WorstLift {
  public:
-  /// stays: per vertex, 1 if it must not move; may be empty.
+  /// stays: per vertex, 1 if it must not move.
   WorstLift(EditMesh& mesh, const RelaxationTarget& target, double enough, const IdMap<VertexId, char>& stays);
 
   /// A few sweeps over those vertices that found no better place only before something near them moved. Returns whether

@@ -12,8 +12,8 @@ namespace qmcf {
 
 /// What is left out of the faces' relaxation.
 struct Held {
-  std::vector<char> faces;                        ///< Per face: 1 if it stays as it is.
-  std::vector<std::vector<Surroundings>> places;  ///< Per face: where it does.
+  std::vector<char> faces;                ///< Per face: 1 if it stays as it is.
+  std::vector<std::vector<Ball>> places;  ///< Per face: where it does.
 };
 
 /// Relaxes the faces' meshes together, across the edges that they share, and moves the nodes on these. Errors:

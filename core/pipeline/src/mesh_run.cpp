@@ -26,11 +26,10 @@ constexpr double kLowestSize = 0.02;
 constexpr double kMostGrowth = 1.5;
 constexpr std::size_t kFewFaults = 10;
 constexpr double kFewElements = 300.0;
-/// How often more is held where relaxing all together leaves elements that are not valid: what is so many elements away
-/// from these, then their faces; the last time all faces are.
-constexpr std::array<double, 4> kHeldElements{3.0, 6.0, 6.0, 6.0};
-constexpr int kLocalHolds = 2;
-constexpr int kMaxHolds = kHeldElements.size();
+/// What is held where relaxing all together leaves elements that are not valid: at first what is so many elements away
+/// from these, then their faces, then all.
+constexpr std::array<double, 2> kHeldElements{3.0, 6.0};
+constexpr std::size_t kMaxHolds = kHeldElements.size() + 2;
 /// How often faces are made of the part's own triangles before a mesh is given up.
 constexpr int kMaxGivenRounds = 5;
 constexpr std::size_t kMostGiven = 10000;  ///< Triangles of such a face, besides twice the elements.
@@ -49,10 +48,9 @@ QualityOptions qualityOptions(const MeshOptions& options, double size) {
 }
 
 /// Adds what is around a point, or makes the place larger that it is in already.
-void holdPlace(std::vector<Surroundings>& places, const Vec3& centre, double radius) {
-  const auto around = std::find_if(places.begin(), places.end(), [&](const Surroundings& place) {
-    return distance(place.centre, centre) <= place.radius;
-  });
+void holdPlace(std::vector<Ball>& places, const Vec3& centre, double radius) {
+  const auto around = std::find_if(places.begin(), places.end(),
+                                   [&](const Ball& place) { return distance(place.centre, centre) <= place.radius; });
   if (around == places.end()) {
     places.push_back({centre, radius});
   } else {
@@ -202,12 +200,15 @@ class MeshRun {
     auto best = join(separate.value(), held);
     if (!best) return best;
     std::vector<SizeLimit> faults = faultsOf(best.value());
-    for (int round = 0; round < kMaxHolds && !faults.empty(); ++round) {
+    for (std::size_t round = 0; round < kMaxHolds && !faults.empty(); ++round) {
       for (const SizeLimit& fault : faults) {
         const auto f = static_cast<std::size_t>(fault.face);
-        // The limit is half the size of the element at fault.
-        holdPlace(held.places[f], fault.position, 2.0 * kHeldElements[static_cast<std::size_t>(round)] * fault.size);
-        if (round >= kLocalHolds) held.faces[f] = 1;
+        if (round < kHeldElements.size()) {
+          // The limit is half the size of the element at fault.
+          holdPlace(held.places[f], fault.position, 2.0 * kHeldElements[round] * fault.size);
+        } else {
+          held.faces[f] = 1;
+        }
       }
       if (round + 1 == kMaxHolds) held.faces.assign(held.faces.size(), 1);
       auto made = join(separate.value(), held);

@@ -107,7 +107,7 @@ struct WayAround {
 
 WayAround wayAround(const BrepFace& face, const FaceBoundary& boundary, const BoundaryPlace& from, double fromFraction,
                     const BoundaryPlace& to, const Hit& hit) {
-  constexpr double kAcute = 1.05;
+  constexpr double kAcute = 1.05;  // 60 degrees.
   if (from.loop != to.loop) return {};
   const auto loop = static_cast<std::size_t>(from.loop);
   const double here = from.alongLoop + std::fabs(from.end - from.start) * fromFraction;

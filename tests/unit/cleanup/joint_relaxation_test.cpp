@@ -54,7 +54,7 @@ class Square {
   }
 
   std::int64_t relax(int rounds = JointRelaxationOptions{}.rounds, bool held = false,
-                     const std::vector<Surroundings>& heldPlaces = {}) {
+                     const std::vector<Ball>& heldPlaces = {}) {
     std::vector<JointFace> faces{{&mesh, &node, &patch, &tree, held, heldPlaces}};
     SilentProgress silent;
     JointRelaxationOptions options;
@@ -105,7 +105,7 @@ TEST(RelaxTogether, KeepsWhatIsInHeldPlaces) {
   square.mesh.positions[static_cast<std::size_t>(square.vertexAt({0.5, 0.5, 0.0}))].x += 0.6 / kCells;
   const std::vector<Vec3> before = square.mesh.positions;
   // Half of the lower side, and what is above it.
-  const Surroundings place{{0.0, 0.0, 0.0}, 0.55};
+  const Ball place{{0.0, 0.0, 0.0}, 0.55};
   EXPECT_GT(square.relax(JointRelaxationOptions{}.rounds, false, {place}), kCells / 2);
   std::size_t moved = 0;
   for (std::size_t v = 0; v < before.size(); ++v) {

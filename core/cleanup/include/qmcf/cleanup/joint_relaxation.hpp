@@ -13,8 +13,8 @@
 
 namespace qmcf {
 
-/// What is within a distance of a point.
-struct Surroundings {
+/// All points within a distance of one.
+struct Ball {
   Vec3 centre;
   double radius = 0.0;
 };
@@ -24,9 +24,9 @@ struct JointFace {
   FaceMesh* mesh = nullptr;                         ///< In and out; without elements it takes no part.
   const std::vector<std::int32_t>* node = nullptr;  ///< Per vertex of the mesh: the node that it shares; kNone inside.
   const Patch* patch = nullptr;
-  const TriangleBvh* target = nullptr;     ///< The face's input triangles.
-  bool held = false;                       ///< Stays as it is, with the nodes on its edges.
-  std::vector<Surroundings> heldPlaces{};  ///< Only what is in these does.
+  const TriangleBvh* target = nullptr;  ///< The face's input triangles.
+  bool held = false;                    ///< Stays as it is, with the nodes on its edges.
+  std::vector<Ball> heldPlaces{};       ///< Only what is in these does.
 };
 
 /// The nodes along one edge of the B-rep.
