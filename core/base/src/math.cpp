@@ -282,6 +282,11 @@ double hypot(double x, double y) {
   return std::sqrt(a * a + b * b) / scale;
 }
 
+double bent(double x, double bound) {
+  const double e = exp(-2.0 * std::fabs(x) / bound);
+  return (x < 0.0 ? -bound : bound) * (1.0 - e) / (1.0 + e);
+}
+
 std::complex<double> normalized(std::complex<double> z) {
   const double scale = safeScale(std::max(std::fabs(z.real()), std::fabs(z.imag())));
   const double x = z.real() * scale;

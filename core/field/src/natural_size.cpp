@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <string>
 
 #include "qmcf/base/math.hpp"
 
@@ -19,6 +20,11 @@ namespace {
 constexpr double kShift = 1e-6;
 /// Cotangents are clamped to this.
 constexpr double kLargestCotangent = 1e3;
+/// From an edge of the face on, sizes inside go back to those wanted within about so many elements. More spreads the
+/// small elements of thin parts all over them, less makes rows end.
+constexpr double kReach = 5.0;
+/// How far the logarithm of a size goes for the turn of the field, either way.
+constexpr double kMostForTurn = 0.3;
 
 /// Numbers the vertices of all patches: nodes have theirs, those inside follow.
 class Unknowns {
@@ -62,8 +68,10 @@ std::array<double, 3> anglesIn(const CrossField& field, TriangleId t) {
   return angle;
 }
 
+/// leastCotangent: 0 gives a matrix with no positive entry beside its diagonal, so that no solution leaves the range of
+/// what it is made of.
 void addTriangle(System& system, const Surface& surface, const CrossField& field, TriangleId t,
-                 const std::array<std::int32_t, 3>& unknown) {
+                 const std::array<std::int32_t, 3>& unknown, double leastCotangent) {
   const auto corners = surface.corners(t);
   const auto at = [&](std::size_t c) -> const Vec3& { return surface.position(corners[c % 3]); };
   const double twiceArea = norm(cross(at(1) - at(0), at(2) - at(0)));
@@ -73,7 +81,7 @@ void addTriangle(System& system, const Surface& surface, const CrossField& field
     const std::size_t i = (c + 1) % 3;
     const std::size_t j = (c + 2) % 3;
     const double cotangent =
-        std::clamp(dot(at(i) - at(c), at(j) - at(c)) / twiceArea, -kLargestCotangent, kLargestCotangent);
+        std::clamp(dot(at(i) - at(c), at(j) - at(c)) / twiceArea, leastCotangent, kLargestCotangent);
     const double weight = 0.5 * cotangent;
     system.entries.emplace_back(unknown[i], unknown[i], weight);
     system.entries.emplace_back(unknown[j], unknown[j], weight);
@@ -83,6 +91,57 @@ void addTriangle(System& system, const Surface& surface, const CrossField& field
     system.side[unknown[c]] += 0.5 * (angle[i] - angle[j]);
     system.area[unknown[c]] += twiceArea / 6.0;
   }
+}
+
+/// The vertices inside a patch, numbered.
+struct InnerUnknowns {
+  explicit InnerUnknowns(const Surface& surface) {
+    for (const VertexId v : surface.vertices()) of.push_back(surface.isBoundary(v) ? kNone : count++);
+  }
+  IdMap<VertexId, std::int32_t> of;  ///< kNone on the boundary.
+  std::int32_t count = 0;
+};
+
+/// The system of settledSizes(): two right sides for one matrix, the wanted sizes spread from the boundary inwards and
+/// what the turn of the field adds.
+struct SettledSystem {
+  Eigen::SparseMatrix<double> matrix;
+  Eigen::MatrixXd side;
+};
+
+/// unit: what logarithms are taken of is divided by it, so that the unit of length has no influence.
+SettledSystem settledSystem(const Patch& patch, const CrossField& field, const InnerUnknowns& inner, double unit) {
+  const Surface& surface = patch.surface;
+  System all(static_cast<Eigen::Index>(surface.vertexCount()));
+  for (const TriangleId t : surface.triangles()) {
+    const auto corners = surface.corners(t);
+    addTriangle(all, surface, field, t, {corners[0].value, corners[1].value, corners[2].value}, 0.0);
+  }
+  SettledSystem system;
+  system.side = Eigen::MatrixXd::Zero(inner.count, 2);
+  std::vector<Eigen::Triplet<double>> entries;
+  for (const Eigen::Triplet<double>& entry : all.entries) {
+    const std::int32_t row = inner.of[VertexId(static_cast<std::int32_t>(entry.row()))];
+    const VertexId other(static_cast<std::int32_t>(entry.col()));
+    if (row == kNone) continue;
+    if (inner.of[other] == kNone) {
+      system.side(row, 0) -= entry.value() * math::log(patch.size[other] / unit);
+    } else {
+      entries.emplace_back(row, inner.of[other], entry.value());
+    }
+  }
+  for (const VertexId v : surface.vertices()) {
+    const std::int32_t i = inner.of[v];
+    if (i == kNone) continue;
+    const double reach = kReach * patch.size[v];
+    const double pull = all.area[v.value] / (reach * reach);
+    entries.emplace_back(i, i, pull);
+    system.side(i, 0) += pull * math::log(patch.size[v] / unit);
+    system.side(i, 1) = all.side[v.value];
+  }
+  system.matrix.resize(inner.count, inner.count);
+  system.matrix.setFromTriplets(entries.begin(), entries.end());
+  return system;
 }
 
 /// The integral of expectedRowEnds() over a triangle.
@@ -119,7 +178,7 @@ Result<std::vector<IdMap<VertexId, double>>> naturalSizes(const std::vector<Patc
     for (const TriangleId t : surface.triangles()) {
       const auto corners = surface.corners(t);
       const auto& of = unknowns.of(p);
-      addTriangle(system, surface, fields[p], t, {of[corners[0]], of[corners[1]], of[corners[2]]});
+      addTriangle(system, surface, fields[p], t, {of[corners[0]], of[corners[1]], of[corners[2]]}, -kLargestCotangent);
     }
   }
   const double area = system.area.sum();
@@ -140,6 +199,27 @@ Result<std::vector<IdMap<VertexId, double>>> naturalSizes(const std::vector<Patc
     for (const std::int32_t i : unknowns.of(p).raw()) result[p].push_back(logs[i] - mean);
   }
   return result;
+}
+
+Result<IdMap<VertexId, double>> settledSizes(const Patch& patch, const CrossField& field, Progress& progress) {
+  if (!progress.report(Stage::field, 1.0)) return cancelledError();
+  IdMap<VertexId, double> sizes = patch.size;
+  const InnerUnknowns inner(patch.surface);
+  if (inner.count == 0) return sizes;
+  const double unit = *std::min_element(sizes.raw().begin(), sizes.raw().end());
+  const SettledSystem system = settledSystem(patch, field, inner, unit);
+  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(system.matrix);
+  const Eigen::MatrixXd logs = factor.solve(system.side);
+  if (factor.info() != Eigen::Success || !logs.allFinite()) {
+    return Error{ErrorCode::internal,
+                 "The sizes inside face " + std::to_string(patch.face) + " could not be computed.",
+                 {patch.face}};
+  }
+  for (const VertexId v : patch.surface.vertices()) {
+    const std::int32_t i = inner.of[v];
+    if (i != kNone) sizes[v] = unit * math::exp(logs(i, 0) + math::bent(logs(i, 1), kMostForTurn));
+  }
+  return sizes;
 }
 
 double expectedRowEnds(const std::vector<Patch>& patches, const std::vector<CrossField>& fields,

@@ -10,6 +10,7 @@
 #include "count_correction.hpp"
 #include "natural_scale.hpp"
 #include "prepare.hpp"
+#include "settle_sizes.hpp"
 
 namespace qmcf {
 namespace {
@@ -20,6 +21,16 @@ constexpr int kMostTrials = 2;
 constexpr std::int64_t kManyElements = 10'000;
 /// The field hardly changes with the size: so many elements tell enough of it.
 constexpr std::int64_t kFieldElements = 3000;
+/// How often, from which share on, and up to which a larger base makes up for what settled sizes add to the number of
+/// elements. Where small features are everywhere, larger elements between them would be of no use.
+constexpr int kMostMakeUps = 2;
+constexpr double kMadeUp = 0.04;
+constexpr double kMostMadeUp = 1.5;
+constexpr double kMostElements = 1e7;
+
+std::int64_t scaled(std::int64_t count, double factor) {
+  return static_cast<std::int64_t>(std::clamp(static_cast<double>(count) * factor, 1.0, kMostElements) + 0.5);
+}
 
 /// Faces that are not meshed by the first way tried.
 std::ptrdiff_t fallbacks(const Trial& trial) {
@@ -50,12 +61,16 @@ class SizeChoice {
     if (!prepared_) {
       if (const auto error = prepare(options_)) return *error;
     }
+    if (options_.quads && options_.fitSizes.value_or(false)) {
+      if (const auto error = makeUpForSettled()) return *error;
+    }
     auto first = makeTrial(part_, options_, *std::exchange(prepared_, std::nullopt), progress_);
     if (!first) return first.error();
     chosen_.trial = std::move(first).value();
     chosen_.askedBase = chosen_.trial.prepared.size.base;
     if (!options_.quads) return std::move(chosen_);
-    if (const auto error = correct(*options_.quads, *options_.quads > kManyElements ? 1 : kMostTrials)) return *error;
+    if (const auto error = correct(*part_.options.quads, *options_.quads > kManyElements ? 1 : kMostTrials))
+      return *error;
     return std::move(chosen_);
   }
 
@@ -94,29 +109,54 @@ class SizeChoice {
       return error.code == ErrorCode::cancelled ? std::optional(error) : std::nullopt;
     };
     const std::optional<MeshOptions> coarse = coarser();
-    if (const auto error = prepare(coarse ? *coarse : options_)) return onlyCancelled(*error);
+    MeshOptions even = coarse ? *coarse : options_;
+    even.fitSizes = false;
+    if (const auto error = prepare(even)) return onlyCancelled(*error);
     auto scale = naturalScale(part_.brep, *prepared_, progress_);
     if (!scale) {
       prepared_.reset();
       return onlyCancelled(scale.error());
     }
     chosen_.scale = std::move(scale).value();
+    if (coarse || !chosen_.scale.empty()) {
+      prepared_.reset();
+      return std::nullopt;
+    }
     // Even sizes are what this was prepared with.
-    if (coarse || !chosen_.scale.empty()) prepared_.reset();
+    return settleSizes(*prepared_, prepared_->changed, options_, progress_);
+  }
+
+  /// Asks for fewer elements of the size field, so that with settled sizes there are as many as it would make without.
+  std::optional<Error> makeUpForSettled() {
+    double wanted = 0.0;
+    for (const double elements : prepared_->wantedElements) wanted += elements;
+    for (int round = 0; round < kMostMakeUps; ++round) {
+      double settled = 0.0;
+      for (const Patch& patch : prepared_->patches) settled += expectedElements(patch);
+      if (std::fabs(settled / wanted - 1.0) < kMadeUp) break;
+      const double least = static_cast<double>(*part_.options.quads) / kMostMadeUp;
+      const std::int64_t fewer = std::max(scaled(*options_.quads, wanted / settled), scaled(1, least));
+      if (fewer == *options_.quads) break;
+      options_.quads = fewer;
+      if (const auto error = prepare(options_)) return error;
+    }
     return std::nullopt;
   }
 
   /// Tries numbers of elements that come out nearer to the one wanted.
   std::optional<Error> correct(std::int64_t wanted, int trials) {
     const auto miss = [wanted](double made) { return std::fabs(made - static_cast<double>(wanted)); };
+    // What is asked of the field for as many elements as are wanted.
+    const double share = static_cast<double>(*options_.quads) / static_cast<double>(wanted);
     CountTrial tried{wanted, count(chosen_.trial)};
-    options_.quads = correctedCount(tried, wanted);
-    for (; trials > 0 && *options_.quads != tried.asked; --trials) {
+    std::int64_t asked = correctedCount(tried, wanted);
+    for (; trials > 0 && asked != tried.asked; --trials) {
+      options_.quads = scaled(asked, share);
       if (const auto error = prepare(options_)) return error;
       auto corrected = makeTrial(part_, options_, *std::exchange(prepared_, std::nullopt), progress_);
       if (!corrected) return corrected.error();
-      const CountTrial now{*options_.quads, count(corrected.value())};
-      options_.quads = correctedCount(tried, now, wanted);
+      const CountTrial now{asked, count(corrected.value())};
+      asked = correctedCount(tried, now, wanted);
       if (miss(now.made) < miss(tried.made) && fallbacks(corrected.value()) <= fallbacks(chosen_.trial)) {
         chosen_.trial = std::move(corrected).value();
         tried = now;

@@ -21,7 +21,7 @@ namespace {
 
 /// How often places where the mesh is not valid get smaller elements, and how small these may be in units of the base.
 constexpr int kMaxRefinements = 4;
-constexpr double kLowestSize = 0.02;
+constexpr double kLowestSize = 0.01;
 /// A run that has to make so many times the elements of the first attempt, or twice the faults of the best, is lost.
 constexpr double kMostGrowth = 1.5;
 constexpr std::size_t kFewFaults = 10;
@@ -79,7 +79,6 @@ class MeshRun {
     PreparedFaces& prepared = sizes_.trial.prepared;
     const double base = prepared.size.base;
     result_.size = sizes_.askedBase * (prepared.size.nominal / base) / coarsening_;
-    result_.fittedSizes = !sizes_.scale.empty();
     std::size_t fewest = 0;
     double mostElements = 0.0;
     for (int round = 0;; ++round) {
@@ -285,6 +284,7 @@ class MeshRun {
     for (const CrossField& field : prepared.fields) {
       result_.fieldSingularities += static_cast<std::int64_t>(field.singularities.size());
     }
+    result_.fittedSizes = !sizes_.scale.empty() || std::count(prepared.settled.begin(), prepared.settled.end(), 1) > 0;
     result_.sizing = prepared.size.sources;
     result_.refinedPlaces = static_cast<std::int64_t>(prepared.size.limits.size());
     keptSizes_ = {prepared.size.base, prepared.size.limits, prepared.minimumDivisions, prepared.size.chordSize};
@@ -297,8 +297,11 @@ class MeshRun {
       if (!field) return field.error();
       asked = std::move(field).value();
     }
-    result_.sizeConformity = sizeConformity(result_.mesh, mesh_, prepared, asked ? &*asked : nullptr, coarsening_);
-    result_.vertexSize = sizesAt(inputPositions_, mesh_, asked ? *asked : prepared.size, coarsening_);
+    const SizeField* other = asked ? &*asked : nullptr;
+    result_.sizeConformity = sizeConformity(result_.mesh, mesh_, prepared, other, coarsening_);
+    result_.vertexSize = options_.fitSizes.value_or(false)
+                             ? settledSizesAt(inputPositions_, mesh_, prepared, other, coarsening_)
+                             : sizesAt(inputPositions_, mesh_, asked ? *asked : prepared.size, coarsening_);
     return std::nullopt;
   }
 

@@ -21,12 +21,6 @@ constexpr double kLeftEnds = 0.88;
 /// A mesh with fewer ends than this is regular as it is.
 constexpr double kFewEnds = 1.0;
 
-/// Bends towards the bounds, with slope 1 at 0: tanh.
-double bounded(double log) {
-  const double e = math::exp(-2.0 * std::fabs(log) / kMostLog);
-  return (log < 0.0 ? -kMostLog : kMostLog) * (1.0 - e) / (1.0 + e);
-}
-
 }  // namespace
 
 Result<SizeScale> naturalScale(const Brep& brep, const PreparedFaces& prepared, Progress& progress) {
@@ -44,7 +38,7 @@ Result<SizeScale> naturalScale(const Brep& brep, const PreparedFaces& prepared, 
   for (auto& ofPatch : logs) {
     even.emplace_back(ofPatch.size(), 0.0);
     for (double& log : ofPatch.raw()) {
-      log = bounded(log);
+      log = math::bent(log, kMostLog);
       most = std::max(most, log);
     }
   }

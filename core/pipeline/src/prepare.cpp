@@ -7,6 +7,7 @@
 
 #include "qmcf/base/parallel.hpp"
 #include "qmcf/qmorph/qmorph.hpp"
+#include "settle_sizes.hpp"
 
 namespace qmcf {
 namespace {
@@ -253,6 +254,9 @@ class Preparation {
     };
     if (options_.mode != Mode::qmorph) {
       if (const auto error = parallelFor(costs, threadsOf(options_), progress_, solve)) return *error;
+    }
+    if (options_.fitSizes.value_or(false)) {
+      if (const auto error = settleSizes(result_, result_.changed, options_, progress_)) return *error;
     }
     result_.minimumDivisions = minimum_;
     return std::move(result_);

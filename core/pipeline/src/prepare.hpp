@@ -25,6 +25,8 @@ struct PreparedFaces {
   std::vector<std::int32_t> minimumDivisions;  ///< Per edge: what its faces asked for, >= 1.
   std::vector<std::int32_t> changed;           ///< Faces that the last call made anew, ascending.
   std::vector<Given> given;                    ///< Per face.
+  std::vector<double> wantedElements;          ///< Per face, where sizes are settled: how many there would be if not.
+  std::vector<std::uint8_t> settled;           ///< Per face: 1 if sizes changed noticeably when they were.
 };
 
 /// What a preparation was made with.
@@ -37,8 +39,9 @@ struct PreparedSizes {
 
 /// Size field, divided edges, background triangulations and cross fields. Edges whose chords would cut through a face
 /// get more divisions until none does; places that the triangulation can't follow get smaller elements.
-/// scale: what the size is multiplied by from place to place, here and below; nullptr: nothing. A size given in the
-/// options is the mean one then. Errors: those of the stages.
+/// Where the options ask for sizes that fit the field, these are settled (settle_sizes.hpp), here and below. scale:
+/// what the size is multiplied by from place to place, here and below; nullptr: nothing. A size given in the options is
+/// the mean one then. Errors: those of the stages.
 Result<PreparedFaces> prepareFaces(const TriangleMesh& mesh, const Brep& brep, const MeshOptions& options,
                                    const SizeScale* scale, Progress& progress);
 

@@ -133,4 +133,26 @@ std::vector<double> sizesAt(const std::vector<Vec3>& points, const TriangleMesh&
   return sizes;
 }
 
+std::vector<double> settledSizesAt(const std::vector<Vec3>& points, const TriangleMesh& repaired,
+                                   const PreparedFaces& prepared, const SizeField* asked, double coarsening) {
+  TriangleMesh all;
+  SizeField sizes;
+  for (const Patch& patch : prepared.patches) {
+    const auto first = static_cast<std::int32_t>(all.positions.size());
+    for (const VertexId v : patch.surface.vertices()) {
+      all.positions.push_back(patch.surface.position(v));
+      sizes.value.push_back(patch.size[v]);
+    }
+    for (const TriangleId t : patch.surface.triangles()) {
+      const std::array<VertexId, 3> corners = patch.surface.corners(t);
+      all.triangles.push_back({first + corners[0].value, first + corners[1].value, first + corners[2].value});
+    }
+  }
+  std::vector<double> result = sizesAt(points, all, sizes, coarsening);
+  if (asked == nullptr) return result;
+  const std::vector<double> change = ratios(points, repaired, *asked, prepared.size);
+  for (std::size_t i = 0; i < result.size(); ++i) result[i] *= change[i];
+  return result;
+}
+
 }  // namespace qmcf

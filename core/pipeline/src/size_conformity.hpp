@@ -20,4 +20,8 @@ SizeConformity sizeConformity(const QuadMesh& mesh, const TriangleMesh& repaired
 std::vector<double> sizesAt(const std::vector<Vec3>& points, const TriangleMesh& repaired, const SizeField& size,
                             double coarsening);
 
+/// The same where sizes are settled: those of the closest patch. asked: as in sizeConformity().
+std::vector<double> settledSizesAt(const std::vector<Vec3>& points, const TriangleMesh& repaired,
+                                   const PreparedFaces& prepared, const SizeField* asked, double coarsening);
+
 }  // namespace qmcf

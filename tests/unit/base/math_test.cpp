@@ -116,6 +116,15 @@ TEST(Math, ExpIsWithinTwoUlp) {
   EXPECT_LT(worstError(-745.0, 709.7, math::exp, truth), 2.0);
 }
 
+TEST(Math, BentStaysWithinItsBoundAndIsOddWithSlopeOne) {
+  EXPECT_EQ(math::bent(0.0, 0.3), 0.0);
+  EXPECT_NEAR(math::bent(1e-3, 0.3), 1e-3, 1e-8);
+  EXPECT_NEAR(math::bent(0.3, 0.3), 0.3 * std::tanh(1.0), 1e-15);
+  EXPECT_EQ(math::bent(-0.2, 0.3), -math::bent(0.2, 0.3));
+  EXPECT_LE(math::bent(100.0, 0.3), 0.3);
+  EXPECT_GE(math::bent(-HUGE_VAL, 0.3), -0.3);
+}
+
 TEST(Math, ExpOfSpecialValues) {
   EXPECT_EQ(math::exp(0.0), 1.0);
   EXPECT_EQ(math::exp(-746.0), 0.0);

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <numbers>
@@ -102,6 +104,83 @@ TEST(NaturalSize, LeavesNoRowToEndInABend) {
   const double size = square.size[VertexId(0)];
   EXPECT_NEAR(expectedRowEnds({square}, {solve(square)}, growing), 0.1 / size, 1e-6 / size);
   EXPECT_EQ(expectedRowEnds(patches, {CrossField{}}, even), 0.0);
+}
+
+IdMap<VertexId, double> settled(const Patch& patch, const CrossField& field) {
+  SilentProgress progress;
+  auto sizes = settledSizes(patch, field, progress);
+  EXPECT_TRUE(sizes.ok());
+  return std::move(sizes).value();
+}
+
+TEST(SettledSizes, KeepWhatFitsTheFieldAlready) {
+  const Patch square = testing::makeSquare(12);
+  const IdMap<VertexId, double> even = settled(square, solve(square));
+  for (const VertexId v : square.surface.vertices()) EXPECT_NEAR(even[v], square.size[v], 1e-12);
+  // log r is harmonic, and its gradient what the bend asks for.
+  Patch sector = makeSector(1.0, 2.0, 60, 40);
+  for (const VertexId v : sector.surface.vertices()) sector.size[v] = 0.04 * radiusOf(sector, v);
+  const IdMap<VertexId, double> growing = settled(sector, solve(sector));
+  for (const VertexId v : sector.surface.vertices()) EXPECT_NEAR(growing[v] / sector.size[v], 1.0, 2e-3);
+}
+
+TEST(SettledSizes, GoBackToThoseWantedWithinFiveElements) {
+  // A square whose edges have half the size wanted inside: far from the corners a function of the distance alone.
+  constexpr double kInside = 0.02;
+  Patch square = testing::makeSquare(60);
+  for (const VertexId v : square.surface.vertices()) square.size[v] = square.surface.isBoundary(v) ? 0.01 : kInside;
+  const IdMap<VertexId, double> sizes = settled(square, CrossField{});
+  const double reach = 5.0 * kInside;
+  for (const VertexId v : square.surface.vertices()) {
+    if (square.surface.isBoundary(v)) {
+      EXPECT_EQ(sizes[v], square.size[v]);
+      continue;
+    }
+    EXPECT_GT(sizes[v], 0.01);
+    EXPECT_LT(sizes[v], kInside);
+    const Vec3& p = square.surface.position(v);
+    if (std::fabs(p.x - 0.5) > 0.1) continue;
+    const double log = -std::log(2.0) * std::cosh((p.y - 0.5) / reach) / std::cosh(0.5 / reach);
+    EXPECT_NEAR(std::log(sizes[v] / kInside), log, 0.02) << p.y;
+  }
+}
+
+TEST(SettledSizes, AreSmallestAroundPositiveSingularities) {
+  const Patch sphere = testing::makeSphere(16);
+  const CrossField field = solve(sphere);
+  ASSERT_EQ(field.singularities.size(), 8U);
+  const IdMap<VertexId, double> sizes = settled(sphere, field);
+  double least = 1e9;
+  double most = 0.0;
+  for (const VertexId v : sphere.surface.vertices()) {
+    const double ratio = sizes[v] / sphere.size[v];
+    EXPECT_LE(std::fabs(std::log(ratio)), 0.3);
+    least = std::min(least, ratio);
+    most = std::max(most, ratio);
+  }
+  EXPECT_GT(most / least, 1.2);
+  for (const Singularity& singularity : field.singularities) {
+    for (const VertexId v : sphere.surface.corners(singularity.point.triangle)) {
+      EXPECT_LT(sizes[v] / sphere.size[v], least * std::sqrt(most / least));
+    }
+  }
+}
+
+TEST(SettledSizes, DoNotDependOnTheUnitOfLength) {
+  Patch square = testing::makeSquare(8);
+  for (const VertexId v : square.surface.vertices()) square.size[v] = 0.05 + 0.1 * square.surface.position(v).x;
+  const IdMap<VertexId, double> sizes = settled(square, CrossField{});
+  std::vector<Vec3> positions;
+  std::vector<std::array<std::int32_t, 3>> triangles;
+  for (const VertexId v : square.surface.vertices()) positions.push_back(square.surface.position(v) * 1024.0);
+  for (const TriangleId t : square.surface.triangles()) {
+    const auto corners = square.surface.corners(t);
+    triangles.push_back({corners[0].value, corners[1].value, corners[2].value});
+  }
+  square.surface = Surface::build(std::move(positions), triangles).value();
+  for (double& size : square.size.raw()) size *= 1024.0;
+  const IdMap<VertexId, double> larger = settled(square, CrossField{});
+  for (const VertexId v : square.surface.vertices()) EXPECT_EQ(larger[v], 1024.0 * sizes[v]);
 }
 
 TEST(NaturalSize, AsksForNothingWhereThereIsNoField) {

@@ -147,13 +147,48 @@ TEST(MeshSurface, MeasuresSizesByTheNumberAskedFor) {
     const auto corner = [&](std::size_t i) { return sphere.positions[static_cast<std::size_t>(t[i])]; };
     area += 0.5 * norm(cross(corner(1) - corner(0), corner(2) - corner(0)));
   }
-  const MeshResult result = mesh(sphere, 1500);
+  SilentProgress silent;
+  MeshOptions options;
+  options.quads = 1500;
+  options.fitSizes = false;
+  const auto made = meshSurface(sphere, options, silent);
+  ASSERT_TRUE(made.ok());
+  const MeshResult& result = made.value();
   expectGood(result);
   EXPECT_NEAR(static_cast<double>(result.quality.quads), 1500.0, 75.0);
   const double asked = std::sqrt(area / 1500.0);
   EXPECT_NEAR(result.size, asked, 1e-9 * asked);
   for (const double size : result.vertexSize) EXPECT_NEAR(size, asked, 1e-9 * asked);
   EXPECT_NEAR(result.sizeConformity.median, 1.0, 0.06);
+}
+
+TEST(MeshSurface, SettlesSizesInsideFaces) {
+  const TriangleMesh sphere = shapes::moved(shapes::cubeSoup(16), [](const Vec3& p) {
+    return normalized(p - Vec3{0.5, 0.5, 0.5});
+  });
+  SilentProgress silent;
+  MeshOptions options;
+  options.quads = 1500;
+  const auto settled = meshSurface(sphere, options, silent);
+  options.fitSizes = false;
+  const auto even = meshSurface(sphere, options, silent);
+  ASSERT_TRUE(settled.ok() && even.ok());
+  expectGood(settled.value());
+  EXPECT_TRUE(settled.value().fittedSizes);
+  EXPECT_FALSE(even.value().fittedSizes);
+  EXPECT_NEAR(static_cast<double>(settled.value().quality.quads), 1500.0, 75.0);
+  // Squares on a sphere are smaller near the eight vertices that three of them share.
+  EXPECT_GT(settled.value().quality.scaledJacobian.mean, even.value().quality.scaledJacobian.mean);
+  EXPECT_LT(settled.value().sizeConformity.meanAbsLog2, 0.8 * even.value().sizeConformity.meanAbsLog2);
+  // What a chord error asks for is an upper bound: 2 sqrt(2 E) on a sphere of radius 1.
+  MeshOptions curved;
+  curved.size = 0.15;
+  curved.curvature = 0.0008;
+  curved.fitSizes = true;
+  const auto bound = meshSurface(sphere, curved, silent);
+  ASSERT_TRUE(bound.ok());
+  expectGood(bound.value());
+  for (const double size : bound.value().vertexSize) EXPECT_LT(size, 1.03 * 0.08);
 }
 
 TEST(MeshSurface, PutsSmallerElementsWhereLargeOnesCanNotFollow) {

@@ -26,6 +26,9 @@ double log2(double x);
 /// sqrt(x^2 + y^2) without overflow or underflow on the way.
 double hypot(double x, double y);
 
+/// bound tanh(x / bound): x, bent to stay within bound either way, with slope 1 at 0. \pre bound > 0
+double bent(double x, double bound);
+
 /// Angle of z in (-pi, pi].
 inline double arg(std::complex<double> z) { return atan2(z.imag(), z.real()); }
 /// e^(i angle).
