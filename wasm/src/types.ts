@@ -43,8 +43,8 @@ export interface MeshOptions {
    */
   curvature?: number | undefined;
   /**
-   * Let the size vary, within a factor of 1.5, to fit the cross field, where that promises better elements: fewer of
-   * their rows end inside faces. The number of elements and the mean size are kept. Needs mode `qmcf`, and `size` where
+   * Let the size vary, by up to 1.6 either way, to fit the cross field and the sizes on the edges of faces, where that
+   * promises better elements: fewer of their rows end inside faces. The number of elements and the mean size are kept. Needs mode `qmcf`, and `size` where
    * there are `sizes`. Default true where a number of elements is all that is asked for, else false.
    */
   fitSizes?: boolean | undefined;
@@ -416,7 +416,7 @@ export interface MeshReport {
   readonly heldPlaces: number;
   /** Nodes that the others moved along their edges by more than a tenth of the element size. */
   readonly slidNodes: number;
-  /** Whether the sizes vary to fit the field: {@link MeshOptions.fitSizes}, where that promised better elements. */
+  /** Whether sizes vary to fit the field, by 5 % at least: {@link MeshOptions.fitSizes}. */
   readonly fittedSizes: boolean;
   readonly sizing: SizeSources;
   /** The lengths of the mesh's edges in units of the target at their midpoints. */

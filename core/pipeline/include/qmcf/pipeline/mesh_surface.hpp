@@ -41,9 +41,9 @@ struct MeshOptions {
   /// elements holds with it, up to where three times the size would be needed elsewhere. Unset: curved faces have no
   /// smaller elements than flat ones.
   std::optional<double> curvature;
-  /// Let the size vary, within a factor of 1.5, to fit the cross field, where that promises better elements: fewer of
-  /// their rows end inside faces. The number of elements and the mean size are kept. Needs mode qmcf, and size where
-  /// there are sizes. Unset: where a number of elements is all that is asked for.
+  /// Let the size vary, by up to 1.6 either way, to fit the cross field and the sizes on the edges of faces, where that
+  /// promises better elements: fewer of their rows end inside faces. The number of elements and the mean size are kept.
+  /// Needs mode qmcf, and size where there are sizes. Unset: where a number of elements is all that is asked for.
   std::optional<bool> fitSizes;
   double featureAngle = 30.0;  ///< Dihedral angle in degrees, (0, 180), from which an edge is sharp.
   Mode mode = Mode::qmcf;      ///< The advancing front.
@@ -109,7 +109,7 @@ struct MeshResult {
   std::vector<FaceReport> faces;
   std::int64_t fieldSingularities = 0;  ///< 0 in a mode without a cross field.
   SizeConformity sizeConformity;
-  bool fittedSizes = false;        ///< The sizes vary to fit the field (MeshOptions::fitSizes).
+  bool fittedSizes = false;        ///< Sizes vary to fit the field (MeshOptions::fitSizes), by 5 % at least.
   SizeSources sizing;              ///< How many vertices of the repaired input have another size than `size`, and why.
   std::vector<double> vertexSize;  ///< Per vertex of the input: the target edge length there.
   std::int64_t refinedPlaces = 0;  ///< Where elements of the size asked for could not follow the part: smaller there.
