@@ -94,7 +94,7 @@ Result<InspectResult> inspectSurface(const TriangleMesh& input, const MeshOption
   auto repaired = repair(input, RepairOptions{options.repair}, progress);
   if (!repaired) return repaired.error();
   result.repaired = std::move(repaired).value();
-  auto brep = recoverBrep(result.repaired.mesh, BrepOptions{options.featureAngle}, progress);
+  auto brep = recoverBrep(result.repaired.mesh, BrepOptions{options.featureAngle, result.repaired.flatEdges}, progress);
   if (!brep) return brep.error();
   result.brep = std::move(brep).value();
   return result;

@@ -295,7 +295,7 @@ Result<Brep> recoverBrep(const TriangleMesh& mesh, const BrepOptions& options, P
   detail::FeatureEdges features = detail::markFeatureEdges(mesh, edges, featureAngle);
   if (!progress.report(Stage::topology, 0.5)) return cancelledError();
   const detail::Bodies bodies = detail::findBodies(mesh, edges);
-  const auto scattered = detail::cleanFeatureChains(mesh, edges, bodies, featureAngle, features);
+  const auto scattered = detail::cleanFeatureChains(mesh, edges, bodies, featureAngle, options.flatEdges, features);
   if (!progress.report(Stage::topology, 0.7)) return cancelledError();
   return detail::BrepBuilder(mesh, edges, features, bodies, scattered).build();
 }

@@ -231,11 +231,15 @@ class Chains {
 
 /// Marks the vertices where creases end or branch. In a scattered body that is noise.
 void markJunctions(const TriangleEdges& edges, const Bodies& bodies, const std::vector<std::uint8_t>& scattered,
-                   FeatureEdges& features) {
+                   FlatEdges flat, FeatureEdges& features) {
+  for (auto& ends : flat) std::sort(ends.begin(), ends.end());
+  std::sort(flat.begin(), flat.end());
   std::vector<std::int32_t> valence(edges.vertexCount(), 0);
   for (const EdgeId e : edges.edges()) {
     if (features.mark[e] == 0 || scattered[bodies.of(edges, e)] != 0) continue;
-    for (const VertexId v : edges.ends(e)) ++valence[v.index()];
+    const auto ends = edges.ends(e);
+    if (std::binary_search(flat.begin(), flat.end(), std::array{ends[0].value, ends[1].value})) continue;
+    for (const VertexId v : ends) ++valence[v.index()];
   }
   features.junction.assign(valence.size(), 0);
   for (std::size_t v = 0; v < valence.size(); ++v) features.junction[v] = valence[v] != 0 && valence[v] != 2 ? 1 : 0;
@@ -255,7 +259,7 @@ void dropLoneEdges(const TriangleEdges& edges, FeatureEdges& features) {
 }  // namespace
 
 std::vector<std::uint8_t> cleanFeatureChains(const TriangleMesh& mesh, const TriangleEdges& edges, const Bodies& bodies,
-                                             double featureAngle, FeatureEdges& features) {
+                                             double featureAngle, const FlatEdges& flat, FeatureEdges& features) {
   std::vector<std::uint8_t> scattered = findScattered(bodies, edges, features);
   std::vector<BodyLimits> limits;
   for (std::size_t b = 0; b < bodies.count(); ++b) {
@@ -266,7 +270,7 @@ std::vector<std::uint8_t> cleanFeatureChains(const TriangleMesh& mesh, const Tri
       features.mark[e] = 0;
     }
   }
-  markJunctions(edges, bodies, scattered, features);
+  markJunctions(edges, bodies, scattered, flat, features);
   {
     Chains chains(mesh, edges, features, bodies, limits);
     chains.extend();

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -16,13 +17,16 @@ struct FeatureEdges {
   IdMap<EdgeId, std::uint8_t> mark;
   /// Angle between the normals of a manifold edge's triangles in radians, 0 elsewhere.
   IdMap<EdgeId, double> dihedral;
-  /// Per vertex of the mesh: 1 where other than two cutting edges met before chains were cleaned. Empty before that.
+  /// Per vertex of the mesh: 1 where other than two cutting edges met before chains were cleaned, without those
+  /// whose angle is unknown. Empty before that.
   std::vector<std::uint8_t> junction;
 
   [[nodiscard]] bool is(EdgeId e, EdgeKind kind) const { return mark[e] == 1 + static_cast<std::uint8_t>(kind); }
   void set(EdgeId e, EdgeKind kind) { mark[e] = static_cast<std::uint8_t>(1 + static_cast<std::uint8_t>(kind)); }
   [[nodiscard]] EdgeKind kind(EdgeId e) const { return static_cast<EdgeKind>(mark[e] - 1); }
 };
+
+using FlatEdges = std::vector<std::array<std::int32_t, 2>>;
 
 /// Marks boundary, non-manifold, sharp and label edges one by one. featureAngle in radians.
 FeatureEdges markFeatureEdges(const TriangleMesh& mesh, const TriangleEdges& edges, double featureAngle);
@@ -32,8 +36,9 @@ FeatureEdges markFeatureEdges(const TriangleMesh& mesh, const TriangleEdges& edg
 /// still end inside a face are dropped. In a body whose sharp edges are scattered instead of forming chains (a scan, a
 /// sculpted model) the tessellation of high curvature was mistaken for creases: only edges of twice the angle count
 /// there, and small patches between them are joined to their neighbours.
-/// featureAngle in radians, as given to markFeatureEdges(). Returns, per body, whether it is such a scattered one.
+/// featureAngle in radians, as given to markFeatureEdges(). flat: BrepOptions::flatEdges. Returns, per body, whether it
+/// is such a scattered one.
 std::vector<std::uint8_t> cleanFeatureChains(const TriangleMesh& mesh, const TriangleEdges& edges, const Bodies& bodies,
-                                             double featureAngle, FeatureEdges& features);
+                                             double featureAngle, const FlatEdges& flat, FeatureEdges& features);
 
 }  // namespace qmcf::detail

@@ -105,7 +105,10 @@ class Flattener {
     }
     const std::int32_t a = corners[shape.longestEdge];
     const std::int32_t b = corners[(shape.longestEdge + 1) % 3];
-    const std::vector<std::int32_t> parts = soup.splitEdge(a, b, corners[(shape.longestEdge + 2) % 3]);
+    const std::int32_t middle = corners[(shape.longestEdge + 2) % 3];
+    state_.flatEdges.push_back({a, middle});
+    state_.flatEdges.push_back({middle, b});
+    const std::vector<std::int32_t> parts = soup.splitEdge(a, b, middle);
     for (const std::int32_t part : parts) push(soup, part);
     return parts.size();
   }

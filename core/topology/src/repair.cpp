@@ -96,6 +96,10 @@ void dropUnreferenced(RepairState& state) {
   for (auto& corners : mesh.triangles) {
     for (std::int32_t& v : corners) v = renumbered[static_cast<std::size_t>(v)];
   }
+  for (auto& ends : state.flatEdges) {
+    for (std::int32_t& v : ends) v = renumbered[static_cast<std::size_t>(v)];
+  }
+  std::erase_if(state.flatEdges, [](const auto& ends) { return ends[0] == kNone || ends[1] == kNone; });
 }
 
 namespace {
@@ -221,7 +225,8 @@ Result<RepairedMesh> repair(const TriangleMesh& input, const RepairOptions& opti
       return Error{ErrorCode::noSurface, "None of the model's triangles has an area.", {}};
     }
   }
-  return RepairedMesh{std::move(state.mesh), std::move(state.origin), std::move(state.items)};
+  return RepairedMesh{std::move(state.mesh), std::move(state.origin), std::move(state.items),
+                      std::move(state.flatEdges)};
 }
 
 }  // namespace qmcf

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -14,6 +15,7 @@ struct RepairState {
   TriangleMesh mesh;
   std::vector<std::int64_t> origin;  ///< Per triangle: triangle of the input.
   std::vector<RepairItem> items;
+  std::vector<std::array<std::int32_t, 2>> flatEdges;  ///< As in RepairedMesh; they may be gone meanwhile.
   bool modify = true;
   double diagonal = 0.0;   ///< Of the bounding box of the triangles.
   double precision = 0.0;  ///< Distance below which two points can't be told apart.

@@ -283,6 +283,24 @@ TEST(Brep, WhereACreaseIsInterruptedItsEdgeHasStops) {
   }
 }
 
+TEST(Brep, WhereTheAngleOfACreaseIsUnknownItsEdgeHasStops) {
+  const TriangleMesh mesh = foldedSheet(8, [](double) { return 60.0 * kPi / 180.0; });
+  const Brep whole = checkedBrep(mesh);
+  const auto crease = std::find_if(whole.edges.begin(), whole.edges.end(),
+                                   [](const BrepEdge& edge) { return edge.kind == EdgeKind::sharp; });
+  ASSERT_NE(crease, whole.edges.end());
+  ASSERT_GE(crease->points.size(), 8U);
+  EXPECT_TRUE(crease->stops.empty());
+  BrepOptions options;
+  options.flatEdges = {{crease->points[4], crease->points[3]}, {crease->points[4], crease->points[5]}, {0, 0}};
+  SilentProgress silent;
+  const auto result = recoverBrep(mesh, options, silent);
+  ASSERT_TRUE(result.ok());
+  const BrepEdge& same = result.value().edges[static_cast<std::size_t>(crease - whole.edges.begin())];
+  EXPECT_EQ(same.points, crease->points);
+  EXPECT_EQ(same.stops, (std::vector<std::int32_t>{3, 5}));
+}
+
 TEST(Brep, LongCreaseThatFadesOutStaysAsASlit) {
   const Brep brep = checkedBrep(foldedSheet(32, [](double v) { return 80.0 * (1.0 - v) * (1.0 - v) * kPi / 180.0; }));
   ASSERT_EQ(brep.faces.size(), 1U);

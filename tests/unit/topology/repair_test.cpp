@@ -148,6 +148,13 @@ TEST(Repair, CapIsRemovedWithoutOpeningACrack) {
   EXPECT_EQ(result.mesh.positions.size(), 9U);
   EXPECT_EQ(result.mesh.triangles.size(), 14U);
   EXPECT_NEAR(areaOf(result.mesh), 6.0, 1e-12);
+  // Both halves of the edge that the cap lay along are told.
+  ASSERT_EQ(result.flatEdges.size(), 2U);
+  double length = 0.0;
+  for (const auto& ends : result.flatEdges) {
+    length += distance(result.mesh.positions[std::size_t(ends[0])], result.mesh.positions[std::size_t(ends[1])]);
+  }
+  EXPECT_NEAR(length, distance(mesh.positions[std::size_t(c[0])], mesh.positions[std::size_t(c[1])]), 1e-12);
 }
 
 TEST(Repair, StripOfCollinearPointsIsRemovedWithoutOpeningACrack) {

@@ -202,7 +202,7 @@ void checkFace(const TriangleMesh& mesh, const Brep& brep, std::size_t f, std::m
 
 Brep checkedBrep(const TriangleMesh& mesh, double featureAngle) {
   SilentProgress silent;
-  auto result = recoverBrep(mesh, {featureAngle}, silent);
+  auto result = recoverBrep(mesh, {featureAngle, {}}, silent);
   EXPECT_TRUE(result.ok());
   if (!result.ok()) return {};
   Brep brep = std::move(result).value();

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -73,6 +74,9 @@ struct Brep {
 /// Feature recognition.
 struct BrepOptions {
   double featureAngle = 30.0;  ///< Dihedral angle in degrees, in (0, 180), from which an edge is sharp.
+  /// Edges of the mesh, by their vertices, whose angle the file does not tell (RepairedMesh::flatEdges): creases go on
+  /// along them, but with stops at their ends. Others than edges are ignored.
+  std::vector<std::array<std::int32_t, 2>> flatEdges;
 };
 
 /// Cuts the mesh into faces along sharp, boundary, non-manifold and label edges.

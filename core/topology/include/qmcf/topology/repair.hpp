@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -27,6 +28,8 @@ struct RepairedMesh {
   TriangleMesh mesh;
   std::vector<std::int64_t> triangleOrigin;  ///< Per triangle: triangle of the input.
   std::vector<RepairItem> items;             ///< In the order in which they were done.
+  /// Edges, by their vertices, along which a triangle was removed that was too flat to have a normal.
+  std::vector<std::array<std::int32_t, 2>> flatEdges;
 };
 
 /// Makes any triangle soup usable. In this order, with the identifiers of the items it reports:
