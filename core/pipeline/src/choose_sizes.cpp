@@ -79,9 +79,10 @@ class SizeChoice {
   [[nodiscard]] const SizeScale* scale() const { return chosen_.scale.empty() ? nullptr : &chosen_.scale; }
 
   std::optional<Error> prepare(const MeshOptions& options) {
-    auto prepared = prepareFaces(part_.mesh, part_.brep, options, scale(), progress_);
+    auto prepared = prepareFaces(part_.mesh, part_.brep, options, scale(), limits_, progress_);
     if (!prepared) return prepared.error();
     prepared_ = std::move(prepared).value();
+    limits_ = prepared_->size.limits;
     return std::nullopt;
   }
 
@@ -169,6 +170,7 @@ class SizeChoice {
   MeshOptions options_;
   Progress& progress_;
   std::optional<PreparedFaces> prepared_;  ///< For the next trial.
+  std::vector<SizeLimit> limits_;          ///< Where elements have to be smaller whatever their number.
   ChosenSizes chosen_;
 };
 

@@ -284,8 +284,8 @@ std::int32_t threadsOf(const MeshOptions& options) {
 }
 
 Result<PreparedFaces> prepareFaces(const TriangleMesh& mesh, const Brep& brep, const MeshOptions& options,
-                                   const SizeScale* scale, Progress& progress) {
-  return Preparation(mesh, brep, options, scale, {}, progress).run({});
+                                   const SizeScale* scale, const std::vector<SizeLimit>& limits, Progress& progress) {
+  return Preparation(mesh, brep, options, scale, {}, progress).run(limits);
 }
 
 Result<PreparedFaces> refineFaces(const TriangleMesh& mesh, const Brep& brep, const MeshOptions& options,

@@ -41,9 +41,10 @@ struct PreparedSizes {
 /// get more divisions until none does; places that the triangulation can't follow get smaller elements.
 /// Where the options ask for sizes that fit the field, these are settled (settle_sizes.hpp), here and below. scale:
 /// what the size is multiplied by from place to place, here and below; nullptr: nothing. A size given in the options is
-/// the mean one then. Errors: those of the stages.
+/// the mean one then. limits: places known to need smaller elements, from a preparation with other sizes. Errors: those
+/// of the stages.
 Result<PreparedFaces> prepareFaces(const TriangleMesh& mesh, const Brep& brep, const MeshOptions& options,
-                                   const SizeScale* scale, Progress& progress);
+                                   const SizeScale* scale, const std::vector<SizeLimit>& limits, Progress& progress);
 
 /// The same with smaller elements at `limits` and the base size as it was. Faces out of their reach keep all they have,
 /// apart from the numbers of the shared nodes.

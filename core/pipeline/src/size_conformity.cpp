@@ -73,13 +73,31 @@ std::vector<Vec3> middlesOf(const QuadMesh& mesh, const std::vector<MeasuredEdge
   return middles;
 }
 
+/// What has a value per vertex of the mesh, at the points of it that are closest to some. Fast where points that follow
+/// each other are near each other.
+std::vector<double> valuesAt(const std::vector<Vec3>& points, const TriangleMesh& mesh,
+                             const std::vector<double>& value) {
+  const TriangleBvh tree(mesh.positions, mesh.triangles);
+  std::vector<double> result;
+  result.reserve(points.size());
+  std::int32_t last = -1;
+  for (const Vec3& p : points) {
+    const ClosestPoint near = tree.closest(p, last);
+    last = near.triangle;
+    const auto& corners = mesh.triangles[static_cast<std::size_t>(near.triangle)];
+    double sum = 0.0;
+    for (std::size_t c = 0; c < 3; ++c) sum += near.barycentric[c] * value[static_cast<std::size_t>(corners[c])];
+    result.push_back(sum);
+  }
+  return result;
+}
+
 /// One field in units of another at each point.
 std::vector<double> ratios(const std::vector<Vec3>& points, const TriangleMesh& repaired, const SizeField& field,
                            const SizeField& unit) {
-  std::vector<double> result = sizesAt(points, repaired, field, 1.0);
-  const std::vector<double> units = sizesAt(points, repaired, unit, 1.0);
-  for (std::size_t i = 0; i < result.size(); ++i) result[i] /= units[i];
-  return result;
+  std::vector<double> ratio = field.value;
+  for (std::size_t v = 0; v < ratio.size(); ++v) ratio[v] /= unit.value[v];
+  return valuesAt(points, repaired, ratio);
 }
 
 }  // namespace
@@ -118,37 +136,27 @@ SizeConformity sizeConformity(const QuadMesh& mesh, const TriangleMesh& repaired
 
 std::vector<double> sizesAt(const std::vector<Vec3>& points, const TriangleMesh& repaired, const SizeField& size,
                             double coarsening) {
-  const TriangleBvh tree(repaired.positions, repaired.triangles);
-  std::vector<double> sizes;
-  sizes.reserve(points.size());
-  for (const Vec3& p : points) {
-    const ClosestPoint near = tree.closest(p);
-    const auto& corners = repaired.triangles[static_cast<std::size_t>(near.triangle)];
-    double sum = 0.0;
-    for (std::size_t c = 0; c < 3; ++c) {
-      sum += near.barycentric[c] * size.value[static_cast<std::size_t>(corners[c])];
-    }
-    sizes.push_back(sum / coarsening);
-  }
+  std::vector<double> sizes = valuesAt(points, repaired, size.value);
+  for (double& h : sizes) h /= coarsening;
   return sizes;
 }
 
 std::vector<double> settledSizesAt(const std::vector<Vec3>& points, const TriangleMesh& repaired,
                                    const PreparedFaces& prepared, const SizeField* asked, double coarsening) {
   TriangleMesh all;
-  SizeField sizes;
+  std::vector<double> sizes;
   for (const Patch& patch : prepared.patches) {
     const auto first = static_cast<std::int32_t>(all.positions.size());
     for (const VertexId v : patch.surface.vertices()) {
       all.positions.push_back(patch.surface.position(v));
-      sizes.value.push_back(patch.size[v]);
+      sizes.push_back(patch.size[v] / coarsening);
     }
     for (const TriangleId t : patch.surface.triangles()) {
       const std::array<VertexId, 3> corners = patch.surface.corners(t);
       all.triangles.push_back({first + corners[0].value, first + corners[1].value, first + corners[2].value});
     }
   }
-  std::vector<double> result = sizesAt(points, all, sizes, coarsening);
+  std::vector<double> result = valuesAt(points, all, sizes);
   if (asked == nullptr) return result;
   const std::vector<double> change = ratios(points, repaired, *asked, prepared.size);
   for (std::size_t i = 0; i < result.size(); ++i) result[i] *= change[i];
