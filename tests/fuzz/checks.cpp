@@ -55,8 +55,8 @@ void checkLoop(const Brep& brep, const FaceSurface& face, const BrepLoop& loop, 
   require(side == sides.size(), "half-edges are as many as a loop's");
 }
 
-void checkFace(const TriangleMesh& mesh, const Brep& brep, std::size_t f) {
-  const FaceSurface face = faceSurface(mesh, brep, static_cast<std::int32_t>(f));
+void checkFace(const Brep& brep, std::size_t f) {
+  const FaceSurface& face = brep.cuts[f];
   require(face.triangleOrigin == brep.faces[f].triangles, "a face's surface is made of its triangles");
   require(face.loops.size() == brep.faces[f].loops.size(), "a face's surface has the face's loops");
   std::size_t boundary = 0;
@@ -80,7 +80,7 @@ void checkBrep(const TriangleMesh& mesh) {
       require(inRange(t, faceOf.size()) && faceOf[static_cast<std::size_t>(t)] == kNone, "faces do not overlap");
       faceOf[static_cast<std::size_t>(t)] = static_cast<std::int32_t>(f);
     }
-    checkFace(mesh, brep, f);
+    checkFace(brep, f);
   }
   require(faceOf == brep.triangleFace, "every triangle has its face");
   for (const BrepEdge& edge : brep.edges) {

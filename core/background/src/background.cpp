@@ -162,7 +162,7 @@ Result<BackgroundResult> buildBackground(const TriangleMesh& mesh, const Brep& b
                                          const SizeField& size, const DividedEdges& divided,
                                          const BackgroundOptions& options, Progress& progress) {
   if (!progress.report(Stage::background, 0.0)) return cancelledError();
-  const FaceSurface cut = faceSurface(mesh, brep, face);
+  const FaceSurface& cut = brep.cuts[static_cast<std::size_t>(face)];
   const FaceReference reference(cut.surface);
   RemeshMesh work;
   FaceBoundary boundary = insertNodes(work, mesh, brep, face, cut, reference, divided);

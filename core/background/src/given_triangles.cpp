@@ -37,13 +37,12 @@ void setNodes(Patch& patch, const BrepLoop& loop, const std::vector<HalfedgeId>&
 
 }  // namespace
 
-Patch givenTriangles(const TriangleMesh& mesh, const Brep& brep, std::int32_t face, const SizeField& size,
-                     const DividedEdges& divided) {
-  FaceSurface cut = faceSurface(mesh, brep, face);
+Patch givenTriangles(const Brep& brep, std::int32_t face, const SizeField& size, const DividedEdges& divided) {
+  const FaceSurface& cut = brep.cuts[static_cast<std::size_t>(face)];
   Patch patch;
   patch.face = face;
-  patch.surface = std::move(cut.surface);
-  patch.edge = std::move(cut.edge);
+  patch.surface = cut.surface;
+  patch.edge = cut.edge;
   setNormals(patch);
   patch.node.resize(patch.surface.vertexCount(), kNone);
   patch.cornerQuads.resize(patch.surface.vertexCount(), 0);

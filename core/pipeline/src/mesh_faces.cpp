@@ -46,7 +46,8 @@ void count(FaceReport& report, const FaceMesh& mesh) {
 /// Whether the ledger of a face's mesh closes with the Euler characteristic of the part's face, counted on the part.
 [[maybe_unused]] bool ledgerCloses(const FaceMesh& made, const Part& part, std::int32_t face) {
   const IndexLedger ledger = indexLedger(made.positions, made.elements);
-  return ledger.closes() && ledger.sum() == 4 * faceSurface(part.mesh, part.brep, face).surface.eulerCharacteristic();
+  return ledger.closes() &&
+         ledger.sum() == 4 * part.brep.cuts[static_cast<std::size_t>(face)].surface.eulerCharacteristic();
 }
 
 /// Where a front that nothing else starts is tried, as shares of the triangles.

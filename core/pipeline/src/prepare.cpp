@@ -195,7 +195,7 @@ class Preparation {
     const auto build = [&](std::size_t i, Progress& progress) -> std::optional<Error> {
       const auto face = static_cast<std::int32_t>(due[i]);
       if (result_.given[due[i]] != Given::nothing) {
-        built[i].patch = givenTriangles(mesh_, brep_, face, result_.size, result_.divided);
+        built[i].patch = givenTriangles(brep_, face, result_.size, result_.divided);
         return std::nullopt;
       }
       auto background = buildBackground(mesh_, brep_, face, result_.size, result_.divided, background_, progress);

@@ -105,7 +105,7 @@ CurvatureSizes curvatureSizes(const TriangleMesh& mesh, const Brep& brep, double
   sizes.vertex.assign(mesh.positions.size(), kInfinity);
   sizes.triangle.assign(mesh.triangles.size(), kInfinity);
   for (std::size_t f = 0; f < brep.faces.size(); ++f) {
-    const FaceSurface cut = faceSurface(mesh, brep, static_cast<std::int32_t>(f));
+    const FaceSurface& cut = brep.cuts[f];
     const IdMap<VertexId, Vec3> normals = angleWeightedNormals(cut.surface);
     IdMap<TriangleId, Symmetric> shape(cut.surface.triangleCount());
     for (const TriangleId t : cut.surface.triangles()) {

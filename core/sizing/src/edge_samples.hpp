@@ -49,8 +49,8 @@ void limitByLength(EdgeSamples& samples, double lowest);
 
 /// Where, straight across a face, another edge (or a far part of the same one) is nearer than `reach`; looked for from
 /// places about `spacing` apart. Nothing when progress asked to stop.
-std::optional<std::vector<Gap>> findGaps(const std::vector<EdgeCurve>& curves, const TriangleMesh& mesh,
-                                         const Brep& brep, double reach, double spacing, Progress& progress);
+std::optional<std::vector<Gap>> findGaps(const std::vector<EdgeCurve>& curves, const Brep& brep, double reach,
+                                         double spacing, Progress& progress);
 
 /// Lowers sizes at both ends of gaps narrower than `nominal`, the size away from edges.
 void limitByGaps(EdgeSamples& samples, const std::vector<Gap>& gaps, double nominal, double lowest);

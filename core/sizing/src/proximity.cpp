@@ -148,15 +148,15 @@ void shootFromHalfedge(std::vector<Gap>& gaps, const BrepFace& face, const Surfa
 
 }  // namespace
 
-std::optional<std::vector<Gap>> findGaps(const std::vector<EdgeCurve>& curves, const TriangleMesh& mesh,
-                                         const Brep& brep, double reach, double spacing, Progress& progress) {
+std::optional<std::vector<Gap>> findGaps(const std::vector<EdgeCurve>& curves, const Brep& brep, double reach,
+                                         double spacing, Progress& progress) {
   std::vector<Gap> gaps;
   for (std::size_t f = 0; f < brep.faces.size(); ++f) {
     const double done = static_cast<double>(f) / static_cast<double>(brep.faces.size());
     if (!progress.report(Stage::sizing, 0.1 + 0.5 * done)) return std::nullopt;
     const BrepFace& face = brep.faces[f];
     if (face.loops.empty()) continue;
-    const FaceSurface cut = faceSurface(mesh, brep, static_cast<std::int32_t>(f));
+    const FaceSurface& cut = brep.cuts[f];
     const FaceBoundary boundary = boundaryOf(face, cut, curves);
     for (const auto& loop : cut.loops) {
       for (const HalfedgeId h : loop) {

@@ -161,7 +161,7 @@ Result<SizeField> computeSizeField(const TriangleMesh& mesh, const Brep& brep, c
   for (const BrepEdge& edge : brep.edges) samples.curves.push_back(edgeCurve(mesh, edge));
   // Room for a base that grows until the count fits.
   const double reach = byCount ? kReachByCount * first : first;
-  const auto gaps = findGaps(samples.curves, mesh, brep, reach, kSampleSpacing * first * mean, progress);
+  const auto gaps = findGaps(samples.curves, brep, reach, kSampleSpacing * first * mean, progress);
   if (!gaps) return cancelledError();
   const InnerSources sources(mesh, brep, options, first);
 

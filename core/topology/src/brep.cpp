@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "bodies.hpp"
+#include "face_surface.hpp"
 #include "feature_edges.hpp"
 #include "qmcf/base/math.hpp"
 #include "triangle_edges.hpp"
@@ -199,7 +200,7 @@ class BrepBuilder {
     }
   }
 
-  /// Loops start at their smallest half-edge that leaves a B-rep vertex, and come in that order: faceSurface() relies
+  /// Loops start at their smallest half-edge that leaves a B-rep vertex, and come in that order: cutFace() relies
   /// on it.
   void traceLoops() {
     std::vector<std::uint8_t> visited(edges_.halfedgeCount(), 0);
@@ -297,7 +298,13 @@ Result<Brep> recoverBrep(const TriangleMesh& mesh, const BrepOptions& options, P
   const detail::Bodies bodies = detail::findBodies(mesh, edges);
   const auto scattered = detail::cleanFeatureChains(mesh, edges, bodies, featureAngle, options.flatEdges, features);
   if (!progress.report(Stage::topology, 0.7)) return cancelledError();
-  return detail::BrepBuilder(mesh, edges, features, bodies, scattered).build();
+  Brep brep = detail::BrepBuilder(mesh, edges, features, bodies, scattered).build();
+  for (std::size_t f = 0; f < brep.faces.size(); ++f) {
+    const double done = static_cast<double>(f) / static_cast<double>(brep.faces.size());
+    if (!progress.report(Stage::topology, 0.8 + 0.2 * done)) return cancelledError();
+    brep.cuts.push_back(detail::cutFace(mesh, brep, static_cast<std::int32_t>(f)));
+  }
+  return brep;
 }
 
 }  // namespace qmcf

@@ -1,9 +1,10 @@
+#include "face_surface.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cassert>
 #include <utility>
 
-#include "qmcf/topology/brep.hpp"
 #include "triangle_edges.hpp"
 
 namespace qmcf {
@@ -87,7 +88,7 @@ std::vector<std::vector<HalfedgeId>> traceLoops(const detail::TriangleEdges& edg
 
 }  // namespace
 
-FaceSurface faceSurface(const TriangleMesh& mesh, const Brep& brep, std::int32_t face) {
+FaceSurface detail::cutFace(const TriangleMesh& mesh, const Brep& brep, std::int32_t face) {
   const BrepFace& source = brep.faces[static_cast<std::size_t>(face)];
   std::vector<std::int32_t> points;
   const detail::Triangles local = localTriangles(mesh, source, points);

@@ -107,7 +107,7 @@ void checkPatch(const Remeshed& r, const Patch& patch, double distance = 0.0) {
   const auto f = static_cast<std::size_t>(patch.face);
   const Surface& s = patch.surface;
   EXPECT_EQ(foundLoops(patch), wantedLoops(r, r.brep.faces[f]));
-  const FaceSurface cut = faceSurface(r.mesh, r.brep, patch.face);
+  const FaceSurface& cut = r.brep.cuts[static_cast<std::size_t>(patch.face)];
   EXPECT_EQ(s.eulerCharacteristic(), cut.surface.eulerCharacteristic());
   ASSERT_EQ(patch.normal.size(), s.vertexCount());
   ASSERT_EQ(patch.size.size(), s.vertexCount());
@@ -288,7 +288,7 @@ TEST(Background, GivenTrianglesAreTheFacesOwn) {
     r.field = computeSizeField(r.mesh, r.brep, options, progress).value();
     r.divided = divideEdges(r.mesh, r.brep, r.field, {}, std::vector<std::uint8_t>(r.brep.edges.size(), 1));
     for (std::size_t f = 0; f < r.brep.faces.size(); ++f) {
-      const Patch patch = givenTriangles(r.mesh, r.brep, static_cast<std::int32_t>(f), r.field, r.divided);
+      const Patch patch = givenTriangles(r.brep, static_cast<std::int32_t>(f), r.field, r.divided);
       EXPECT_EQ(foundLoops(patch), wantedLoops(r, r.brep.faces[f]));
       EXPECT_EQ(patch.surface.triangleCount(), r.brep.faces[f].triangles.size());
       EXPECT_NEAR(areaOf(patch), r.brep.faces[f].area, 1e-12 * r.brep.faces[f].area);

@@ -149,7 +149,7 @@ TEST(Brep, MoebiusStripIsCutIntoOneOrientedFace) {
   const Brep brep = checkedBrep(mesh);
   ASSERT_EQ(brep.faces.size(), 1U);
   EXPECT_EQ(brep.faces[0].loops.size(), 1U);
-  const FaceSurface face = faceSurface(mesh, brep, 0);
+  const FaceSurface& face = brep.cuts[0];
   EXPECT_EQ(face.surface.eulerCharacteristic(), 1);
 }
 
@@ -170,7 +170,7 @@ TEST(Brep, TorusIsOneFaceWithoutLoops) {
   EXPECT_TRUE(brep.faces[0].loops.empty());
   EXPECT_TRUE(brep.edges.empty());
   EXPECT_TRUE(brep.bodies[0].closed);
-  EXPECT_EQ(faceSurface(mesh, brep, 0).surface.eulerCharacteristic(), 0);
+  EXPECT_EQ(brep.cuts[0].surface.eulerCharacteristic(), 0);
 }
 
 TEST(Brep, TwoSheetsTouchingInACornerShareTheVertexOnly) {
@@ -217,7 +217,7 @@ TEST(Brep, ConesTouchingAtTheirApexAreSeparateLocalVertices) {
   const Brep brep = checkedBrep(mesh);
   ASSERT_EQ(brep.faces.size(), 2U);
   for (std::int32_t f = 0; f < 2; ++f) {
-    const FaceSurface face = faceSurface(mesh, brep, f);
+    const FaceSurface& face = brep.cuts[static_cast<std::size_t>(f)];
     EXPECT_EQ(face.surface.eulerCharacteristic(), 1);
   }
 }

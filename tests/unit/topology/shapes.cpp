@@ -179,8 +179,8 @@ void checkGaussBonnet(const Surface& surface) {
   EXPECT_NEAR(curvature, 2.0 * kPi * double(surface.eulerCharacteristic()), 1e-6);
 }
 
-void checkFace(const TriangleMesh& mesh, const Brep& brep, std::size_t f, std::map<Pair, int>& uses) {
-  const FaceSurface face = faceSurface(mesh, brep, static_cast<std::int32_t>(f));
+void checkFace(const Brep& brep, std::size_t f, std::map<Pair, int>& uses) {
+  const FaceSurface& face = brep.cuts[f];
   ASSERT_EQ(face.surface.triangleCount(), brep.faces[f].triangles.size()) << "face " << f;
   EXPECT_EQ(face.triangleOrigin, brep.faces[f].triangles);
   ASSERT_EQ(face.loops.size(), brep.faces[f].loops.size());
@@ -215,7 +215,7 @@ Brep checkedBrep(const TriangleMesh& mesh, double featureAngle) {
   std::vector<std::int32_t> faceOf(mesh.triangles.size(), kNone);
   for (std::size_t f = 0; f < brep.faces.size(); ++f) {
     for (const std::int32_t t : brep.faces[f].triangles) faceOf[std::size_t(t)] = static_cast<std::int32_t>(f);
-    checkFace(mesh, brep, f, uses);
+    checkFace(brep, f, uses);
   }
   EXPECT_EQ(faceOf, brep.triangleFace);
   for (const BrepEdge& edge : brep.edges) {

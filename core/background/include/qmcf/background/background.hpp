@@ -37,7 +37,6 @@ Result<BackgroundResult> buildBackground(const TriangleMesh& mesh, const Brep& b
 
 /// The face's own triangles as its patch, however long and thin they are: it follows the face exactly.
 /// \pre the face's edges are divided at their own points (asGiven of divideEdges())
-Patch givenTriangles(const TriangleMesh& mesh, const Brep& brep, std::int32_t face, const SizeField& size,
-                     const DividedEdges& divided);
+Patch givenTriangles(const Brep& brep, std::int32_t face, const SizeField& size, const DividedEdges& divided);
 
 }  // namespace qmcf

@@ -62,6 +62,17 @@ struct BrepBody {
   bool closed = false;
 };
 
+/// The triangles of one face as a manifold surface of its own, cut open along its edges.
+struct FaceSurface {
+  Surface surface;
+  std::vector<std::int32_t> vertexPoint;  ///< Per surface vertex: vertex of the mesh. A cut vertex occurs repeatedly.
+  std::vector<std::int32_t> triangleOrigin;  ///< Per surface triangle: triangle of the mesh.
+  IdMap<HalfedgeId, std::int32_t> edge;      ///< Edge of the B-rep under a boundary half-edge; kNone elsewhere.
+  /// Per boundary loop of the surface, in the order of BrepFace::loops: its half-edges, starting where the loop's first
+  /// coedge starts.
+  std::vector<std::vector<HalfedgeId>> loops;
+};
+
 /// The boundary representation recovered from a repaired mesh.
 struct Brep {
   std::vector<BrepVertex> vertices;
@@ -69,6 +80,7 @@ struct Brep {
   std::vector<BrepFace> faces;
   std::vector<BrepBody> bodies;
   std::vector<std::int32_t> triangleFace;  ///< Per triangle of the mesh.
+  std::vector<FaceSurface> cuts;           ///< Per face: its triangles, for the stages that work on them face by face.
 };
 
 /// Feature recognition.
@@ -95,19 +107,5 @@ struct BrepOptions {
 /// \pre mesh comes from repair(): no degenerate triangle, no single non-manifold edge inside a sheet.
 /// Complexity O(n log n). Errors: cancelled, noSurface.
 Result<Brep> recoverBrep(const TriangleMesh& mesh, const BrepOptions& options, Progress& progress);
-
-/// The triangles of one face as a manifold surface of its own, cut open along its edges.
-struct FaceSurface {
-  Surface surface;
-  std::vector<std::int32_t> vertexPoint;  ///< Per surface vertex: vertex of the mesh. A cut vertex occurs repeatedly.
-  std::vector<std::int32_t> triangleOrigin;  ///< Per surface triangle: triangle of the mesh.
-  IdMap<HalfedgeId, std::int32_t> edge;      ///< Edge of the B-rep under a boundary half-edge; kNone elsewhere.
-  /// Per boundary loop of the surface, in the order of BrepFace::loops: its half-edges, starting where the loop's first
-  /// coedge starts.
-  std::vector<std::vector<HalfedgeId>> loops;
-};
-
-/// \pre face is an index into brep.faces; mesh is the one given to recoverBrep().
-FaceSurface faceSurface(const TriangleMesh& mesh, const Brep& brep, std::int32_t face);
 
 }  // namespace qmcf
