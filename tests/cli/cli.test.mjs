@@ -174,6 +174,33 @@ test('mesh writes a mesh that check finds valid, with report and summary', () =>
   assert.equal(quality.quads, report.quality.quads);
 });
 
+test('of a rough surface without creases none are missed', () => {
+  const [around, along] = [48, 24];
+  const radius = (i, j) => 1 + 0.012 * Math.sin(3.7 * i + 1.3 * j) * Math.cos(2.9 * j - 1.7 * i);
+  const vertices = ['v 0 0 1'];
+  for (let j = 1; j < along; ++j) {
+    for (let i = 0; i < around; ++i) {
+      const [t, p, r] = [(Math.PI * j) / along, (2 * Math.PI * i) / around, radius(i, j)];
+      vertices.push(`v ${r * Math.sin(t) * Math.cos(p)} ${r * Math.sin(t) * Math.sin(p)} ${r * Math.cos(t)}`);
+    }
+  }
+  vertices.push('v 0 0 -1');
+  const at = (i, j) => (j === 0 ? 1 : j === along ? vertices.length : 2 + (j - 1) * around + (i % around));
+  const faces = [];
+  for (let j = 0; j < along; ++j) {
+    for (let i = 0; i < around; ++i) {
+      if (j > 0) faces.push(`f ${at(i, j)} ${at(i, j + 1)} ${at(i + 1, j)}`);
+      if (j + 1 < along) faces.push(`f ${at(i + 1, j)} ${at(i, j + 1)} ${at(i + 1, j + 1)}`);
+    }
+  }
+  put('rough.obj', [...vertices, ...faces, ''].join('\n'));
+  const { status, stdout, stderr } = qmcf('mesh', 'rough.obj', '-o', 'quads.obj', '--quads', '600', '--report', 'rough.json');
+  assert.equal(status, 0, stderr);
+  assert.ok(JSON.parse(get('rough.json')).quality.sharpRecall < 0.5);
+  assert.match(stdout, /no creases: where triangles meet at more than the feature angle, that is taken as curvature/);
+  assert.doesNotMatch(stdout, /of sharp edges/);
+});
+
 test('the same input gives the same bytes, and the extension chooses the format', () => {
   put('cube.obj', cube());
   const signs = { obj: '# Quad', vtu: '<?xml', ply: 'ply\n', stl: 'Quad', msh: '$MeshFormat', inp: '*HEADING', bdf: '$ Quad' };

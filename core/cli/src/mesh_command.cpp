@@ -89,8 +89,8 @@ int run(const MeshCommand& command) {
   if (command.quiet) return kDone;
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
   const std::string text = modelText(command.input, model.value()) + partText(mesh.input) + meshText(mesh) +
-                           qualityText(mesh.quality) + "Written   " + command.output + " in " +
-                           shortNumber(elapsed.count()) + " s\n";
+                           qualityText(mesh.quality, hasCreases(mesh.input.brep)) + "Written   " + command.output +
+                           " in " + shortNumber(elapsed.count()) + " s\n";
   std::fputs(text.c_str(), stdout);
   return kDone;
 }

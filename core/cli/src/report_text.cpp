@@ -91,7 +91,7 @@ std::string ledgerText(const IndexLedger& ledger) {
   return line("Ledger", text);
 }
 
-std::string fidelityText(const QualityReport& report) {
+std::string fidelityText(const QualityReport& report, bool hasCreases) {
   std::string text;
   if (report.largestDistance)
     text += line("Distance", "largest " + shortNumber(*report.largestDistance) + " from the part");
@@ -99,11 +99,14 @@ std::string fidelityText(const QualityReport& report) {
   const auto add = [&](const std::optional<double>& recall, const char* what) {
     if (recall) kept.push_back(percent(*recall) + " of " + what);
   };
-  add(report.sharpRecall, "sharp edges");
+  if (hasCreases) add(report.sharpRecall, "sharp edges");
   add(report.boundaryRecall, "boundary");
   add(report.nonManifoldRecall, "non-manifold edges");
-  add(report.cornerRecall, "corners");
+  if (hasCreases) add(report.cornerRecall, "corners");
   if (!kept.empty()) text += line("Kept", join(kept));
+  if (!hasCreases && report.sharpRecall) {
+    text += line("", "no creases: where triangles meet at more than the feature angle, that is taken as curvature");
+  }
   return text;
 }
 
@@ -239,12 +242,17 @@ std::string meshText(const MeshResult& result) {
   return text + line("Faces", join(parts)) + reasons;
 }
 
-std::string qualityText(const QualityReport& report) {
+bool hasCreases(const Brep& brep) {
+  return std::any_of(brep.edges.begin(), brep.edges.end(),
+                     [](const BrepEdge& edge) { return edge.kind == EdgeKind::sharp; });
+}
+
+std::string qualityText(const QualityReport& report, bool hasCreases) {
   std::string text = line("Shape", "scaled Jacobian " + distributionText(report.scaledJacobian)) +
                      line("", "smallest angle " + distributionText(report.minAngle)) +
                      line("", "aspect ratio " + distributionText(report.aspectRatio)) +
                      line("", percent(report.regularShare) + " of the interior vertices are regular") +
-                     ledgerText(report.ledger) + fidelityText(report);
+                     ledgerText(report.ledger) + fidelityText(report, hasCreases);
   std::int64_t passed = 0;
   for (const ValidityCheck& check : report.checks) {
     passed += check.status == CheckStatus::pass ? 1 : 0;

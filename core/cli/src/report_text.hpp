@@ -21,8 +21,10 @@ std::string partText(const InspectResult& result);
 std::string elementsText(const Brep& brep);
 /// The mesh, and the faces that could not be meshed in the first way.
 std::string meshText(const MeshResult& result);
-/// Shape, fidelity and checks.
-std::string qualityText(const QualityReport& report);
+/// Shape, fidelity and checks. hasCreases: false where sharp edges are what the part's curvature was cut into.
+std::string qualityText(const QualityReport& report, bool hasCreases = true);
+/// Whether the part has edges that count as sharp ones.
+bool hasCreases(const Brep& brep);
 
 /// A number with four significant digits.
 std::string shortNumber(double value);

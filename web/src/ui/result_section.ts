@@ -17,21 +17,27 @@ export function resultSection(store: Store, zoomTo: (target: Target) => void): H
     show(section, mesh !== undefined);
     show(old, mesh !== undefined && mesh.optionsKey !== optionsKey(state.settings));
     if (mesh && (state === before || mesh !== before.mesh)) {
-      body.replaceChildren(...report(mesh, zoomTo));
+      const hasCreases = state.model?.part.edgeKinds.includes('sharp') ?? true;
+      body.replaceChildren(...report(mesh, hasCreases, zoomTo));
     }
   });
   return section;
 }
 
-function report({ result, seconds }: Made<MeshResult>, zoomTo: (target: Target) => void): HTMLElement[] {
+function report({ result, seconds }: Made<MeshResult>, hasCreases: boolean, zoomTo: (target: Target) => void): HTMLElement[] {
   const { quality, repair } = result.report;
+  // Without creases the edges counted as sharp are what curvature was cut into.
+  const isNoise = !hasCreases && typeof quality.sharpRecall === 'number';
   const exceptions = exceptionsOf(result.report);
   return [
     verdict(quality),
     headline(quality),
     histogram(result.elementScaledJacobian),
     worstElement(result, zoomTo),
-    figures(result.report, result.size),
+    figures(result.report, result.size, !isNoise),
+    ...(isNoise
+      ? [el('p', { class: 'facts' }, 'The part has no creases: where its triangles meet at more than the feature angle, that is taken as curvature.')]
+      : []),
     methods(result, zoomTo),
     ...(exceptions === '' ? [] : [el('p', { class: 'facts' }, exceptions)]),
     ...repairReport(repair),
@@ -90,7 +96,7 @@ function histogram(values: Float64Array): HTMLElement {
   );
 }
 
-function figures({ quality, sizeConformity }: MeshReport, size: number): HTMLElement {
+function figures({ quality, sizeConformity }: MeshReport, size: number, tellsCreases: boolean): HTMLElement {
   const shapes: [string, QualityReport['scaledJacobian']][] = [
     ['Scaled Jacobian', quality.scaledJacobian],
     ['Jacobian ratio', quality.jacobianRatio],
@@ -100,8 +106,12 @@ function figures({ quality, sizeConformity }: MeshReport, size: number): HTMLEle
   const distance = quality.largestDistance;
   const singles: [string, string][] = [
     ['Off the size wanted, mean', `${format.figure(sizeConformity.meanAbsLog2)} octaves`],
-    ['Sharp edges kept', format.percent(quality.sharpRecall)],
-    ['Corners kept', format.percent(quality.cornerRecall)],
+    ...(tellsCreases
+      ? ([
+          ['Sharp edges kept', format.percent(quality.sharpRecall)],
+          ['Corners kept', format.percent(quality.cornerRecall)],
+        ] as [string, string][])
+      : []),
     ...(typeof quality.boundaryRecall === 'number'
       ? ([['Boundary kept', format.percent(quality.boundaryRecall)]] as [string, string][])
       : []),
