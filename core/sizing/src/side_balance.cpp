@@ -50,6 +50,14 @@ bool isRectilinear(const BrepFace& face) {
   return outlines == 1;
 }
 
+/// One loop with three corners: rows from all sides meet in a vertex with three elements.
+bool isTriangular(const BrepFace& face) {
+  if (face.loops.size() != 1) return false;
+  const auto& coedges = face.loops[0].coedges;
+  return turnOf(face.loops[0]) == 3 &&
+         std::all_of(coedges.begin(), coedges.end(), [](const Coedge& c) { return c.cornerQuads <= 2; });
+}
+
 bool isRing(const BrepFace& face) {
   return face.loops.size() == 2 && isSmooth(face.loops[0]) && isSmooth(face.loops[1]);
 }
@@ -76,18 +84,25 @@ double weightOf(double rows) {
   return rows < kFewRows ? kNarrow : 1.0;
 }
 
-/// Whether the sizes let the two sides match: nearly as many divisions on both.
-bool canMatch(const Row& row, const std::vector<EdgeCount>& edges) {
-  constexpr double kDifference = 1.0;
+/// How many times as many divisions the sizes may ask for on one side of a row as on the other for the two to match.
+/// Those of a narrow ring differ by its curvature alone: rows that end there leave elements with a straight corner.
+double mostRatio(double rows, bool isRing) {
   constexpr double kRatio = 1.15;
   constexpr double kNarrowRatio = 1.7;
+  constexpr double kRingRatio = 2.0;
+  if (rows >= kFewRows) return kRatio;
+  return isRing && rows < kOneRow ? kRingRatio : kNarrowRatio;
+}
+
+/// Whether the sizes let the two sides match: nearly as many divisions on both.
+bool canMatch(const Row& row, const std::vector<EdgeCount>& edges, double ratio) {
+  constexpr double kDifference = 1.0;
   double ahead = 0.0;
   double back = row.target;
   for (std::size_t i = 0; i < row.edges.size(); ++i) {
     const double wanted = std::max(edges[at(row.edges[i])].wanted, static_cast<double>(edges[at(row.edges[i])].least));
     (row.factors[i] > 0 ? ahead : back) += std::abs(row.factors[i]) * wanted;
   }
-  const double ratio = row.weight > 1.0 ? kNarrowRatio : kRatio;
   return std::fabs(ahead - back) <= kDifference || std::max(ahead, back) <= ratio * std::min(ahead, back);
 }
 
@@ -122,10 +137,12 @@ class RowFinder {
       if (isRectilinear(face)) {
         for (const BrepLoop& loop : face.loops) addLoop(loop);
         if (face.loops.size() == 2 && acrossFace_ < kFewRows) addFrame(face);
+      } else if (isTriangular(face)) {
+        addTriangle(face.loops[0]);
       } else if (isRing(face)) {
         add(face.loops[0].coedges, 1);
         add(face.loops[1].coedges, -1);
-        close(0);
+        keepIfItCanMatch(take(0), true);
       }
     }
     return std::move(rows_);
@@ -141,7 +158,7 @@ class RowFinder {
   }
 
   /// Makes a row of what was added.
-  void close(std::int32_t target) {
+  Row take(std::int32_t target) {
     Row row;
     row.face = face_;
     row.target = target;
@@ -155,7 +172,11 @@ class RowFinder {
       sums_[at(edge)] = 0;
     }
     touched_.clear();
-    if (!row.edges.empty() && canMatch(row, edges_)) rows_.push_back(std::move(row));
+    return row;
+  }
+
+  void keepIfItCanMatch(Row row, bool isRing = false) {
+    if (!row.edges.empty() && canMatch(row, edges_, mostRatio(acrossFace_, isRing))) rows_.push_back(std::move(row));
   }
 
   /// Divisions one way and back, along both axes.
@@ -166,7 +187,7 @@ class RowFinder {
         direction += 2 - coedge.cornerQuads + 4;
         if (direction % 2 == axis) add({&coedge, 1}, direction % 4 < 2 ? 1 : -1);
       }
-      close(0);
+      keepIfItCanMatch(take(0));
     }
   }
 
@@ -192,14 +213,36 @@ class RowFinder {
     for (std::size_t i = 0; i < 4; ++i) {
       add((*outer)[i], 1);
       add((*inner)[(shift + 4 - i) % 4], -1);
-      close(2);
+      keepIfItCanMatch(take(2));
+    }
+  }
+
+  static bool isCorner(const Coedge& coedge) { return coedge.cornerQuads != 2; }
+
+  /// A side as long as the two others together has the vertex with three elements on it: one of its elements has a
+  /// straight corner. Two divisions less, and it lies a row inside.
+  void addTriangle(const BrepLoop& loop) {
+    constexpr std::int32_t kInside = 2;
+    constexpr double kNear = 1.5;
+    std::vector<Coedge> fromCorner = loop.coedges;
+    std::rotate(fromCorner.begin(), std::find_if(fromCorner.begin(), fromCorner.end(), isCorner), fromCorner.end());
+    for (std::size_t longest = 0; longest < 3; ++longest) {
+      double wanted = 0.0;
+      std::size_t corners = 0;
+      for (const Coedge& coedge : fromCorner) {
+        if (isCorner(coedge)) ++corners;
+        const std::int32_t factor = corners == longest + 1 ? -1 : 1;
+        wanted += factor * edges_[at(coedge.edge)].wanted;
+        add({&coedge, 1}, factor);
+      }
+      Row row = take(kInside);
+      if (!row.edges.empty() && std::fabs(wanted - kInside) < kNear) rows_.push_back(std::move(row));
     }
   }
 
   /// The coedges between the four corners of a loop.
   [[nodiscard]] static std::optional<std::array<std::vector<Coedge>, 4>> sidesOf(const BrepLoop& loop,
                                                                                  std::int32_t cornerQuads) {
-    const auto isCorner = [](const Coedge& coedge) { return coedge.cornerQuads != 2; };
     const auto first = std::find_if(loop.coedges.begin(), loop.coedges.end(), isCorner);
     std::vector<Coedge> turned(first, loop.coedges.end());
     turned.insert(turned.end(), loop.coedges.begin(), first);

@@ -179,6 +179,10 @@ TEST(DivideEdges, RimsOfANarrowRingAgreeAndThoseOfAWideOneNeedNot) {
   const Divided narrow = divide(parts::annulus(96, 0.75, 1.0), 0.25);
   ASSERT_EQ(narrow.edges.edges.size(), 2U);
   EXPECT_EQ(divisions(narrow, 0), divisions(narrow, 1));
+  // The outer rim is 1.9 times as long.
+  const Divided curved = divide(parts::annulus(96, 1.0, 1.9), 0.75);
+  ASSERT_EQ(curved.edges.edges.size(), 2U);
+  EXPECT_EQ(divisions(curved, 0), divisions(curved, 1));
   const Divided wide = divide(parts::annulus(96, 0.3, 2.0), 0.1);
   ASSERT_EQ(wide.edges.edges.size(), 2U);
   EXPECT_GT(std::max(divisions(wide, 0), divisions(wide, 1)), 3 * std::min(divisions(wide, 0), divisions(wide, 1)));
@@ -200,6 +204,22 @@ TEST(DivideEdges, SidesOfAnLMatchInSum) {
   const Divided d = divide(parts::sheet({0, 3.4, 6.8}, {0, 5, 10}, [](int i, int j) { return i == 0 || j == 0; }), 1.0);
   EXPECT_EQ(d.edges.oddFaces, 0);
   EXPECT_EQ(divisionsAt(d, 0.0), divisionsAt(d, 5.0) + divisionsAt(d, 10.0));
+}
+
+TEST(DivideEdges, NoSideOfATriangularFaceIsAsLongAsTheOthers) {
+  // The sides of a quarter of a disk are 1, 1 and pi / 2 radii long.
+  for (double radius = 3.0; radius < 6.0; radius += 0.25) {
+    const Divided d = divide(parts::disk(48, radius, 0.25), 1.0);
+    ASSERT_EQ(d.brep.faces.size(), 1U);
+    EXPECT_EQ(oddFaces(d), 0);
+    std::int64_t all = 0;
+    std::int64_t longest = 0;
+    for (std::size_t e = 0; e < d.brep.edges.size(); ++e) {
+      all += divisions(d, static_cast<std::int32_t>(e));
+      if (d.brep.edges[e].length > 1.2 * radius) longest += divisions(d, static_cast<std::int32_t>(e));
+    }
+    EXPECT_EQ(all - 2 * longest, 2) << radius;
+  }
 }
 
 TEST(DivideEdges, SidesBetweenSlantedEndsMatchWhereThereIsOneRow) {
