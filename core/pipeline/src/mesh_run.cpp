@@ -93,6 +93,8 @@ class MeshRun {
       const auto elements = static_cast<double>(attempted.value().mesh.elements.size());
       const auto missed = halvedWhereMissed(attempted.value().quality.missed, mesh_, brep_, prepared.size);
       const std::size_t faults = limits.size() + (missing.empty() ? 0 : 1) + missed.size();
+      std::vector<std::int32_t> tiny;
+      if (round > 0) tiny = tinyFacesAtFault(attempted.value());
       if (round == 0 || faults < fewest) {
         fewest = faults;
         if (const auto error = keep(std::move(attempted).value())) return *error;
@@ -100,10 +102,13 @@ class MeshRun {
       limits.insert(limits.end(), missing.begin(), missing.end());
       limits.insert(limits.end(), missed.begin(), missed.end());
       limits = notBelow(limits, kLowestSize * base);
+      std::erase_if(
+          limits, [&tiny](const SizeLimit& limit) { return std::binary_search(tiny.begin(), tiny.end(), limit.face); });
       if (round == 0) mostElements = kMostGrowth * elements + kFewElements;
       const bool isLost = elements > mostElements || faults > 2 * fewest + kFewFaults;
-      if (limits.empty() || isLost || round == kMaxRefinements) break;
-      auto refined = refineFaces(mesh_, brep_, options_, scale(), std::move(prepared), limits, progress_);
+      if ((limits.empty() && tiny.empty()) || isLost || round == kMaxRefinements) break;
+      auto refined = tiny.empty() ? refineFaces(mesh_, brep_, options_, scale(), std::move(prepared), limits, progress_)
+                                  : giveTiny(tiny, limits);
       if (!refined) return refined.error();
       prepared = std::move(refined).value();
     }
@@ -119,7 +124,7 @@ class MeshRun {
   std::optional<Error> giveTriangles() {
     // A fine scan of which a few elements are not valid is not replaced by itself.
     const std::size_t mostTriangles = kMostGiven + 2 * result_.mesh.elements.size();
-    std::vector<Given> given(brep_.faces.size(), Given::nothing);
+    std::vector<Given> given = sizes_.trial.prepared.given;
     std::vector<std::int32_t> atFault = facesAtFault(result_.mesh, result_.quality, brep_);
     for (int round = 0; round < kMaxGivenRounds && !atFault.empty(); ++round) {
       bool changed = false;
@@ -161,6 +166,30 @@ class MeshRun {
     QualityReport quality;
     std::vector<SizeLimit> limits;  ///< Where smaller elements may make it valid.
   };
+
+  /// Faces at fault that are smaller than an element, ascending: if smaller elements did not help once they won't, and
+  /// the face's own triangles are not too coarse. Without those that are made of them already.
+  [[nodiscard]] std::vector<std::int32_t> tinyFacesAtFault(const Attempt& made) const {
+    const PreparedFaces& prepared = sizes_.trial.prepared;
+    std::vector<std::int32_t> faces = facesAtFault(made.mesh, made.quality, brep_);
+    std::erase_if(faces, [&](std::int32_t face) {
+      const auto f = static_cast<std::size_t>(face);
+      return brep_.faces[f].area > prepared.size.base * prepared.size.base || prepared.given[f] != Given::nothing;
+    });
+    return faces;
+  }
+
+  /// Makes these faces of the part's own triangles, and puts smaller elements where others ask for them.
+  Result<PreparedFaces> giveTiny(const std::vector<std::int32_t>& faces, const std::vector<SizeLimit>& limits) {
+    const PreparedFaces& before = sizes_.trial.prepared;
+    PreparedSizes sizes{before.size.base, before.size.limits, before.minimumDivisions, before.size.chordSize};
+    sizes.limits.insert(sizes.limits.end(), limits.begin(), limits.end());
+    std::vector<Given> given = before.given;
+    for (const std::int32_t face : faces) given[static_cast<std::size_t>(face)] = Given::triangles;
+    auto prepared = prepareGiven(mesh_, brep_, options_, scale(), sizes, given, progress_);
+    if (prepared) keepUnchanged(before, prepared.value());
+    return prepared;
+  }
 
   /// Meshes that will share the nodes on their edges.
   struct SeparateFaces {
