@@ -43,9 +43,9 @@ export interface MeshOptions {
    */
   curvature?: number | undefined;
   /**
-   * Let the size vary, by up to 1.6 either way, to fit the cross field and the sizes on the edges of faces, where that
-   * promises better elements: fewer of their rows end inside faces. The number of elements and the mean size are kept. Needs mode `qmcf`, and `size` where
-   * there are `sizes`. Default true where a number of elements is all that is asked for, else false.
+   * Let the size vary, by up to 1.65 either way, to fit the cross field and the sizes on the edges of faces, where that
+   * promises better elements: fewer of their rows end inside faces. The number of elements and the mean size are kept.
+   * Needs mode `qmcf`, and `size` where there are `sizes`. Default true where a number of elements is all that is asked for, else false.
    */
   fitSizes?: boolean | undefined;
   /** Dihedral angle in degrees, between 0 and 180, from which an edge is sharp. Default 30. */

@@ -66,7 +66,7 @@ void addMesh(CLI::App& app, MeshCommand& command) {
   std::optional<bool>& fitSizes = command.options.fitSizes;
   app.add_flag_callback(
       "--fit-sizes", [&fitSizes] { fitSizes = true; },
-      "Let sizes vary by up to 1.6 either way to fit the cross field, where that promises better elements\n"
+      "Let sizes vary by up to 1.65 either way to fit the cross field, where that promises better elements\n"
       "(the default where a number of elements is all that is asked for)");
   app.add_flag_callback(
       "--no-fit-sizes", [&fitSizes] { fitSizes = false; }, "One size wherever the part allows it");

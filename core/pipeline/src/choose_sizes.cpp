@@ -26,11 +26,6 @@ constexpr std::int64_t kFieldElements = 3000;
 constexpr int kMostMakeUps = 2;
 constexpr double kMadeUp = 0.04;
 constexpr double kMostMadeUp = 1.5;
-constexpr double kMostElements = 1e7;
-
-std::int64_t scaled(std::int64_t count, double factor) {
-  return static_cast<std::int64_t>(std::clamp(static_cast<double>(count) * factor, 1.0, kMostElements) + 0.5);
-}
 
 /// Faces that are not meshed by the first way tried.
 std::ptrdiff_t fallbacks(const Trial& trial) {
@@ -135,8 +130,9 @@ class SizeChoice {
       double settled = 0.0;
       for (const Patch& patch : prepared_->patches) settled += expectedElements(patch);
       if (std::fabs(settled / wanted - 1.0) < kMadeUp) break;
+      const double enough = static_cast<double>(*options_.quads) * wanted / settled;
       const double least = static_cast<double>(*part_.options.quads) / kMostMadeUp;
-      const std::int64_t fewer = std::max(scaled(*options_.quads, wanted / settled), scaled(1, least));
+      const std::int64_t fewer = roundedCount(std::max(enough, least));
       if (fewer == *options_.quads) break;
       options_.quads = fewer;
       if (const auto error = prepare(options_)) return error;
@@ -152,7 +148,7 @@ class SizeChoice {
     CountTrial tried{wanted, count(chosen_.trial)};
     std::int64_t asked = correctedCount(tried, wanted);
     for (; trials > 0 && asked != tried.asked; --trials) {
-      options_.quads = scaled(asked, share);
+      options_.quads = roundedCount(static_cast<double>(asked) * share);
       if (const auto error = prepare(options_)) return error;
       auto corrected = makeTrial(part_, options_, *std::exchange(prepared_, std::nullopt), progress_);
       if (!corrected) return corrected.error();

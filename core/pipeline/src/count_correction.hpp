@@ -10,6 +10,9 @@ struct CountTrial {
   double made = 0.0;
 };
 
+/// A whole number of elements that can be asked for, 1 to 10,000,000.
+std::int64_t roundedCount(double count);
+
 /// What number of elements to ask of the size field for about `wanted`. The front makes some more or fewer than the
 /// field takes, which depends on the part: rows that close in on a disc's centre get too narrow before one ends, those
 /// that spread over a sphere too wide. Returns what was asked for, scaled to `wanted`, where nothing is to be

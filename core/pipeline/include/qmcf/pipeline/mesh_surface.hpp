@@ -41,9 +41,9 @@ struct MeshOptions {
   /// elements holds with it, up to where three times the size would be needed elsewhere. Unset: curved faces have no
   /// smaller elements than flat ones.
   std::optional<double> curvature;
-  /// Let the size vary, by up to 1.6 either way, to fit the cross field and the sizes on the edges of faces, where that
-  /// promises better elements: fewer of their rows end inside faces. The number of elements and the mean size are kept.
-  /// Needs mode qmcf, and size where there are sizes. Unset: where a number of elements is all that is asked for.
+  /// Let the size vary, by up to 1.65 either way, to fit the cross field and the sizes on the edges of faces, where
+  /// that promises better elements: fewer of their rows end inside faces. The number of elements and the mean size are
+  /// kept. Needs mode qmcf, and size where there are sizes. Unset: where a number of elements is all that is asked for.
   std::optional<bool> fitSizes;
   double featureAngle = 30.0;  ///< Dihedral angle in degrees, (0, 180), from which an edge is sharp.
   Mode mode = Mode::qmcf;      ///< The advancing front.
