@@ -56,7 +56,7 @@ export interface MeshOptions {
   mode?: Mode | undefined;
   /** True: no triangles; a mesh of twice the size whose elements are cut at the middles of their edges. Default false. */
   allQuad?: boolean | undefined;
-  /** Largest slope of the size field, above 0 and at most 1. Default 0.2. */
+  /** Largest slope of the size field before it settles inside faces, above 0 and at most 1. Default 0.25. */
   gradation?: number | undefined;
   /** Field constraint: boundary edges. Default true. */
   alignBoundary?: boolean | undefined;

@@ -114,7 +114,7 @@ export const initialState: State = {
     fitSizes: undefined,
     featureAngle: 30,
     mode: 'qmcf',
-    gradation: 0.2,
+    gradation: 0.25,
     alignBoundary: true,
     alignSharp: true,
     alignNonManifold: true,

@@ -16,7 +16,7 @@ namespace qmcf {
 /// What the vertices of a remesh aim at.
 struct RemeshTargets {
   double base = 0.0;              ///< Size of the quad mesh away from everything.
-  double gradation = 0.2;         ///< Largest slope of the size.
+  double gradation = 0.25;        ///< Largest slope of the size.
   double relativeSize = 0.8;      ///< Length of triangle edges in units of the size, at nodes and where it is curved.
   double flatSize = 1.7;          ///< The same far from the nodes where the face is flat; at least relativeSize.
   std::vector<double> nodeSize;   ///< Per vertex of the mesh: size at nodes, 0 elsewhere.

@@ -8,6 +8,7 @@
 
 #include "cavity.hpp"
 #include "operators.hpp"
+#include "qmcf/base/math.hpp"
 #include "qmcf/mesh/element_shape.hpp"
 #include "qmcf/mesh/side_pattern.hpp"
 
@@ -23,14 +24,16 @@ constexpr double kNoTriangleWorth = 0.1;
 /// Energy of two irregular vertices, and how many patterns with two are tried.
 constexpr int kTwoEnergy = 2;
 constexpr std::size_t kMostTries = 6;
-/// How much stretch, summed over the elements, a unit of energy is worth; and how much more of it, and of mean shape, a
-/// pattern may cost before it is relaxed to be tried at all.
-constexpr double kStretchWorth = 1.0;
+/// How much distortion, summed over the elements, a unit of energy is worth; how much of it an element of twice or half
+/// the size is; and how much more stretch, and loss of mean shape, a pattern may cost before it is relaxed to be tried
+/// at all.
+constexpr double kDistortionWorth = 1.0;
+constexpr double kSizeWorth = 1.5;
 constexpr double kPromisedStretch = 6.5;
 constexpr double kPromisedLoss = 0.2;
 constexpr int kSettleSweeps = 12;
 constexpr int kRoughSweeps = 10;  ///< Of these, on the patch.
-/// A sweep lowers the stretch by at most this share of what the one before did. What can't get there is given up.
+/// A sweep lowers the distortion by at most this share of what the one before did. What can't get there is given up.
 constexpr double kNextGain = 0.85;
 
 /// How much the number of elements of a cavity may change, and the area that it must keep: what is less bridges a limb.
@@ -71,6 +74,20 @@ double stretchOf(const EditMesh& mesh, const std::vector<FaceId>& faces) {
     if (!sides[3].valid()) continue;
     const auto p = [&](std::size_t i) -> const Vec3& { return mesh.position(mesh.origin(sides[i])); };
     sum += stretch(p(0), p(1), p(2), p(3));
+  }
+  return sum;
+}
+
+/// Sum over the quadrilaterals of stretch() and of how far their size is off.
+double distortionOf(const EditMesh& mesh, const std::vector<FaceId>& faces, const RelaxationTarget& target) {
+  double sum = stretchOf(mesh, faces);
+  for (const FaceId f : faces) {
+    const auto sides = mesh.sides(f);
+    if (!sides[3].valid()) continue;
+    const auto p = [&](std::size_t i) -> const Vec3& { return mesh.position(mesh.origin(sides[i])); };
+    const double size = wantedSize(target, mesh.vertex(mesh.origin(sides[0])));
+    const double area = 0.5 * norm(cross(p(2) - p(0), p(3) - p(1)));
+    sum += 0.5 * kSizeWorth * std::fabs(math::log2(area / (size * size)));
   }
   return sum;
 }
@@ -130,15 +147,15 @@ double distanceOf(const std::vector<Vec3>& points, const TriangleBvh& face) {
   return std::sqrt(largest);
 }
 
-/// How far the stretch will have fallen after so many more sweeps if each lowers it by kNextGain of what the one before
-/// did.
-double foreseen(double stretch, double before, int sweeps) {
-  double gain = std::max(before - stretch, 0.0);
+/// How far the distortion will have fallen after so many more sweeps if each lowers it by kNextGain of what the one
+/// before did.
+double foreseen(double distortion, double before, int sweeps) {
+  double gain = std::max(before - distortion, 0.0);
   for (int i = 0; i < sweeps; ++i) {
     gain *= kNextGain;
-    stretch -= gain;
+    distortion -= gain;
   }
-  return stretch;
+  return distortion;
 }
 
 }  // namespace
@@ -226,6 +243,7 @@ TopologicalCleanup::Measures TopologicalCleanup::measureCavity(std::size_t trian
   measures.least = std::min(triangles > 0 ? options_.leastShape : kGoodShape, shapes.worst);
   measures.meanShape = shapes.mean;
   measures.stretch = stretchOf(mesh_, cavity_.faces());
+  measures.distortion = distortionOf(mesh_, cavity_.faces(), target_);
   return measures;
 }
 
@@ -253,14 +271,14 @@ std::vector<EditMesh::Vertex> TopologicalCleanup::innerVertices(const SidePatter
   return inner;
 }
 
-/// Relaxes a cavity that was filled anew. Returns whether its elements are less stretched than allowed in the end.
+/// Relaxes a cavity that was filled anew. Returns whether its elements are less distorted than allowed in the end.
 bool TopologicalCleanup::settleFilled(const std::vector<FaceId>& filled, const std::vector<VertexId>& moving,
                                       const RelaxationTarget& rough, double allowed) {
-  double stretch = stretchOf(mesh_, filled);
+  double distortion = distortionOf(mesh_, filled, target_);
   for (int sweep = 0; sweep < kSettleSweeps; ++sweep) {
     relax(mesh_, moving, sweep < kRoughSweeps ? rough : target_, kGoodShape);
-    const double before = std::exchange(stretch, stretchOf(mesh_, filled));
-    if (!(foreseen(stretch, before, kSettleSweeps - 1 - sweep) <= allowed)) return false;
+    const double before = std::exchange(distortion, distortionOf(mesh_, filled, target_));
+    if (!(foreseen(distortion, before, kSettleSweeps - 1 - sweep) <= allowed)) return false;
   }
   return true;
 }
@@ -284,7 +302,7 @@ bool TopologicalCleanup::fillWith(const SidePattern& pattern, const std::vector<
   const std::vector<FaceId> filled = mesh_.fill(loop, cavity, pattern.cells, inner);
   const std::vector<VertexId> moving = cornersOf(mesh_, filled);
   const auto isGood = [&] {
-    if (!settleFilled(filled, moving, rough, before.stretch + kStretchWorth * drop)) return false;
+    if (!settleFilled(filled, moving, rough, before.distortion + kDistortionWorth * drop)) return false;
     const Shapes after = shapesOf(mesh_, filled);
     const double worth = before.triangles > 0 ? kNoTriangleWorth : kRegularityWorth;
     if (after.worst < before.least || after.mean < before.meanShape - worth) return false;

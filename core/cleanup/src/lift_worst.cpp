@@ -82,7 +82,7 @@ bool WorstLift::lift(VertexId v) {
   bool moved = false;
   for (int move = 0; move < kMostMoves && length >= kShortest && worst < enough_; ++move) {
     const EditMesh::Vertex from = mesh_.vertex(v);
-    const double size = target_.sizeScale * interpolate(target_.patch.surface, target_.patch.size, from.location);
+    const double size = wantedSize(target_, from);
     const Vec3 side = mesh_.position(mesh_.target(mesh_.outgoing(v))) - from.position;
     const Vec3 x = normalized(tangentPart(side, from.normal));
     const Vec3 y = cross(from.normal, x);

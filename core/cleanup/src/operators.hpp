@@ -61,6 +61,7 @@ class TopologicalCleanup {
     double least = 0.0;  ///< Shape below which no new element may be.
     double meanShape = 0.0;
     double stretch = 0.0;
+    double distortion = 0.0;
   };
   [[nodiscard]] Measures measureCavity(std::size_t triangles, double count) const;
   [[nodiscard]] std::vector<EditMesh::Vertex> innerVertices(const SidePattern& pattern,

@@ -48,6 +48,10 @@ Vec3 idealCorner(const EditMesh& mesh, HalfedgeId h, const Vec3& normal, double 
   return centre + arm * ((1.0 - kSizeWeight) + kSizeWeight * wanted / length);
 }
 
+double wantedSize(const RelaxationTarget& target, const EditMesh::Vertex& vertex) {
+  return target.sizeScale * interpolate(target.patch.surface, target.patch.size, vertex.location);
+}
+
 EditMesh::Vertex projectVertex(const RelaxationTarget& target, const EditMesh::Vertex& from, const Vec3& position) {
   constexpr double kMinCosine = 0.3;
   EditMesh::Vertex vertex;
@@ -72,7 +76,7 @@ namespace {
 /// element sizes.
 double relaxVertex(EditMesh& mesh, VertexId v, const RelaxationTarget& target, double enough) {
   const EditMesh::Vertex& vertex = mesh.vertex(v);
-  const double size = target.sizeScale * interpolate(target.patch.surface, target.patch.size, vertex.location);
+  const double size = wantedSize(target, vertex);
   Vec3 sum;
   int count = 0;
   mesh.forEachOutgoing(v, [&](HalfedgeId h) {

@@ -19,6 +19,9 @@ struct RelaxationTarget {
   const WholePart* part = nullptr;
 };
 
+/// The size of elements that is wanted at a vertex.
+double wantedSize(const RelaxationTarget& target, const EditMesh::Vertex& vertex);
+
 /// The place on the face nearest to a position, with normal and location.
 EditMesh::Vertex projectVertex(const RelaxationTarget& target, const EditMesh::Vertex& from, const Vec3& position);
 

@@ -160,7 +160,7 @@ bool moveToBest(EditMesh& mesh, const RelaxationTarget& target, VertexId v) {
   const double before = around.below(HUGE_VAL).value_or(HUGE_VAL);
   if (!(before > 0.0)) return false;
   const EditMesh::Vertex start = mesh.vertex(v);
-  const double size = target.sizeScale * interpolate(target.patch.surface, target.patch.size, start.location);
+  const double size = wantedSize(target, start);
   const Vec3 side = mesh.position(mesh.target(mesh.outgoing(v))) - start.position;
   const Vec3 x = normalized(tangentPart(side, start.normal));
   const Vec3 y = cross(start.normal, x);

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <functional>
 
 #include "qmcf/base/math.hpp"
 
@@ -52,10 +54,38 @@ Connection buildConnection(const Patch& patch) {
   return connection;
 }
 
+void followSizes(const Patch& patch, Connection& connection) {
+  const Surface& surface = patch.surface;
+  const auto& sizes = patch.size.raw();
+  if (std::adjacent_find(sizes.begin(), sizes.end(), std::not_equal_to<>()) == sizes.end()) return;
+  connection.growth.resize(surface.halfedgeCount(), 0.0);
+  for (const TriangleId t : surface.triangles()) {
+    const auto corners = surface.corners(t);
+    const auto at = [&](std::size_t c) -> const Vec3& { return surface.position(corners[c % 3]); };
+    const double twiceArea = norm(cross(at(1) - at(0), at(2) - at(0)));
+    if (!(twiceArea > 0.0)) continue;
+    // J grad(ln h): the gradient of the function that is 1 at a corner is the opposite side, turned inwards.
+    Vec3 turn;
+    for (std::size_t c = 1; c < 3; ++c) {
+      turn += (at(c + 1) - at(c + 2)) * (math::log(patch.size[corners[c]] / patch.size[corners[0]]) / twiceArea);
+    }
+    for (std::size_t c = 0; c < 3; ++c) {
+      const HalfedgeId h = Surface::halfedge(t, static_cast<int>(c));
+      const HalfedgeId back = surface.twin(h);
+      if (!back.valid()) continue;
+      // The mean of what the triangles on both sides say.
+      const double half = 0.5 * dot(turn, at(c + 1) - at(c));
+      connection.growth[h] += half;
+      connection.growth[back] -= half;
+    }
+  }
+}
+
 double transportAngle(const Surface& surface, const Connection& connection, HalfedgeId h) {
   const HalfedgeId back = surface.twin(h);
   const double arrival = back.valid() ? connection.angle[back] : connection.total[surface.target(h)];
-  return arrival - math::kPi - connection.angle[h];
+  const double turn = arrival - math::kPi - connection.angle[h];
+  return connection.growth.empty() ? turn : turn + connection.growth[h];
 }
 
 std::complex<double> transportCross(const Surface& surface, const Connection& connection, HalfedgeId h) {
@@ -66,8 +96,13 @@ std::complex<double> transportCross(const Surface& surface, const Connection& co
 }
 
 double triangleCurvature(const Connection& connection, TriangleId t) {
-  return connection.scaled[Surface::halfedge(t, 0)] + connection.scaled[Surface::halfedge(t, 1)] +
-         connection.scaled[Surface::halfedge(t, 2)] - math::kPi;
+  double turn = -math::kPi;
+  for (int c = 0; c < 3; ++c) {
+    const HalfedgeId h = Surface::halfedge(t, c);
+    turn += connection.scaled[h];
+    if (!connection.growth.empty()) turn += connection.growth[h];
+  }
+  return turn;
 }
 
 }  // namespace qmcf

@@ -120,7 +120,8 @@ Result<CrossField> computeCrossField(const Patch& patch, const std::vector<std::
   if (std::optional<Error> error = validate(options)) return *std::move(error);
   if (!progress.report(Stage::field, 0.0)) return cancelledError();
   const Surface& surface = patch.surface;
-  const Connection connection = buildConnection(patch);
+  Connection connection = buildConnection(patch);
+  if (options.followSizes) followSizes(patch, connection);
   const IdMap<VertexId, TangentFrame> frames = tangentFrames(patch, connection);
   const FieldMatrices matrices = assemble(patch, connection, options);
   FieldConditions conditions(surface.vertexCount());

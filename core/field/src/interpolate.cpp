@@ -38,10 +38,22 @@ void fillFan(const Patch& patch, const Connection& connection, VertexId v, Cross
       // The tangent halves the deviation of the two chords; the chord itself is right halfway along it.
       const double tangent =
           directionInTriangle(connection, h) - plain + 0.5 * (connection.fan[v] - connection.total[v]);
-      field.tangentTurn[t][corner] = tangent - turn;
+      field.extraTurn[t][corner] = tangent - turn;
     }
     plain += connection.corner[h];
   });
+}
+
+/// What the field turns because elements grow is kept apart, too: linear in each triangle, and 0 in its middle.
+void keepGrowthApart(const Connection& connection, TriangleId t, CrossField& field) {
+  std::array<double, 3> growth{};
+  for (std::size_t c = 0; c < 3; ++c) growth[c] = connection.growth[Surface::halfedge(t, static_cast<int>(c))];
+  for (std::size_t c = 0; c < 3; ++c) {
+    // What is left over around the triangle is spread evenly over its sides.
+    const double turn = (growth[(c + 2) % 3] - growth[c]) / 3.0;
+    field.corner[t][c] *= math::unitComplex(-4.0 * turn);
+    field.extraTurn[t][c] += turn;
+  }
 }
 
 std::complex<double> interpolated(const CrossField& field, const SurfacePoint& point) {
@@ -53,14 +65,16 @@ std::complex<double> interpolated(const CrossField& field, const SurfacePoint& p
 
 void fillCorners(const Patch& patch, const Connection& connection, CrossField& field) {
   field.corner.resize(patch.surface.triangleCount());
-  field.tangentTurn.resize(patch.surface.triangleCount(), {0.0, 0.0, 0.0});
+  field.extraTurn.resize(patch.surface.triangleCount(), {0.0, 0.0, 0.0});
   for (const VertexId v : patch.surface.vertices()) fillFan(patch, connection, v, field);
+  if (connection.growth.empty()) return;
+  for (const TriangleId t : patch.surface.triangles()) keepGrowthApart(connection, t, field);
 }
 
 double crossAngle(const CrossField& field, const SurfacePoint& point) {
   std::complex<double> u = interpolated(field, point);
   if (std::norm(u) < 1e-24) u = field.corner[point.triangle][0];
-  const auto& turn = field.tangentTurn[point.triangle];
+  const auto& turn = field.extraTurn[point.triangle];
   return 0.25 * math::arg(u) + turn[0] * point.barycentric[0] + turn[1] * point.barycentric[1] +
          turn[2] * point.barycentric[2];
 }

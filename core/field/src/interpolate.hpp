@@ -5,7 +5,7 @@
 
 namespace qmcf {
 
-/// Fills CrossField::corner and CrossField::tangentTurn from CrossField::cross.
+/// Fills CrossField::corner and CrossField::extraTurn from CrossField::cross.
 void fillCorners(const Patch& patch, const Connection& connection, CrossField& field);
 
 }  // namespace qmcf

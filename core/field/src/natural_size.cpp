@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "qmcf/base/math.hpp"
@@ -22,7 +23,9 @@ constexpr double kShift = 1e-6;
 constexpr double kLargestCotangent = 1e3;
 /// From an edge of the face on, sizes inside go back to those wanted within about so many elements. More spreads the
 /// small elements of thin parts all over them, less makes rows end.
-constexpr double kReach = 5.0;
+constexpr double kSpreadReach = 4.0;
+/// What the turn of the field does to the sizes fades within about so many elements.
+constexpr double kTurnReach = 8.0;
 /// How far the logarithm of a size goes for the turn of the field, either way.
 constexpr double kMostForTurn = 0.3;
 
@@ -61,7 +64,7 @@ std::array<double, 3> anglesIn(const CrossField& field, TriangleId t) {
   // Around a singularity they are not those of one function.
   if (field.cross.empty() || field.index[t] != 0) return angle;
   const auto& cross = field.corner[t];
-  const auto& turn = field.tangentTurn[t];
+  const auto& turn = field.extraTurn[t];
   for (std::size_t c = 1; c < 3; ++c) {
     angle[c] = 0.25 * math::arg(cross[c] * std::conj(cross[0])) + turn[c] - turn[0];
   }
@@ -102,30 +105,38 @@ struct InnerUnknowns {
   std::int32_t count = 0;
 };
 
-/// The system of settledSizes(): two right sides for one matrix, the wanted sizes spread from the boundary inwards and
-/// what the turn of the field adds.
-struct SettledSystem {
+/// The minimum of a System over a patch and of what pulls its unknowns, the vertices inside, back to given values.
+struct PulledSystem {
   Eigen::SparseMatrix<double> matrix;
-  Eigen::MatrixXd side;
+  Eigen::VectorXd side;
+
+  /// The minimum; nothing if there is none to be had.
+  [[nodiscard]] std::optional<Eigen::VectorXd> solve() const {
+    const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(matrix);
+    Eigen::VectorXd values = factor.solve(side);
+    if (factor.info() != Eigen::Success || !values.allFinite()) return std::nullopt;
+    return values;
+  }
 };
 
-/// unit: what logarithms are taken of is divided by it, so that the unit of length has no influence.
-SettledSystem settledSystem(const Patch& patch, const CrossField& field, const InnerUnknowns& inner, double unit) {
+/// value: per vertex what it is on the boundary, and pulled to inside from `reach` sizes on.
+PulledSystem pulledSystem(const Patch& patch, const CrossField& field, const InnerUnknowns& inner,
+                          const IdMap<VertexId, double>& value, double reach) {
   const Surface& surface = patch.surface;
   System all(static_cast<Eigen::Index>(surface.vertexCount()));
   for (const TriangleId t : surface.triangles()) {
     const auto corners = surface.corners(t);
     addTriangle(all, surface, field, t, {corners[0].value, corners[1].value, corners[2].value}, 0.0);
   }
-  SettledSystem system;
-  system.side = Eigen::MatrixXd::Zero(inner.count, 2);
+  PulledSystem system;
+  system.side = Eigen::VectorXd::Zero(inner.count);
   std::vector<Eigen::Triplet<double>> entries;
   for (const Eigen::Triplet<double>& entry : all.entries) {
     const std::int32_t row = inner.of[VertexId(static_cast<std::int32_t>(entry.row()))];
     const VertexId other(static_cast<std::int32_t>(entry.col()));
     if (row == kNone) continue;
     if (inner.of[other] == kNone) {
-      system.side(row, 0) -= entry.value() * math::log(patch.size[other] / unit);
+      system.side[row] -= entry.value() * value[other];
     } else {
       entries.emplace_back(row, inner.of[other], entry.value());
     }
@@ -133,15 +144,20 @@ SettledSystem settledSystem(const Patch& patch, const CrossField& field, const I
   for (const VertexId v : surface.vertices()) {
     const std::int32_t i = inner.of[v];
     if (i == kNone) continue;
-    const double reach = kReach * patch.size[v];
-    const double pull = all.area[v.value] / (reach * reach);
+    const double length = reach * patch.size[v];
+    const double pull = all.area[v.value] / (length * length);
     entries.emplace_back(i, i, pull);
-    system.side(i, 0) += pull * math::log(patch.size[v] / unit);
-    system.side(i, 1) = all.side[v.value];
+    system.side[i] += pull * value[v] + all.side[v.value];
   }
   system.matrix.resize(inner.count, inner.count);
   system.matrix.setFromTriplets(entries.begin(), entries.end());
   return system;
+}
+
+Error notComputed(const Patch& patch) {
+  return {ErrorCode::internal,
+          "The sizes inside face " + std::to_string(patch.face) + " could not be computed.",
+          {patch.face}};
 }
 
 /// The integral of expectedRowEnds() over a triangle.
@@ -201,23 +217,34 @@ Result<std::vector<IdMap<VertexId, double>>> naturalSizes(const std::vector<Patc
   return result;
 }
 
-Result<IdMap<VertexId, double>> settledSizes(const Patch& patch, const CrossField& field, Progress& progress) {
+Result<IdMap<VertexId, double>> spreadSizes(const Patch& patch, Progress& progress) {
+  if (!progress.report(Stage::field, 0.0)) return cancelledError();
+  IdMap<VertexId, double> sizes = patch.size;
+  const InnerUnknowns inner(patch.surface);
+  const auto [least, most] = std::minmax_element(sizes.raw().begin(), sizes.raw().end());
+  if (inner.count == 0 || *least == *most) return sizes;
+  // The unit of length has no influence.
+  const double unit = *least;
+  IdMap<VertexId, double> logs;
+  for (const double size : sizes.raw()) logs.push_back(math::log(size / unit));
+  const auto spread = pulledSystem(patch, CrossField{}, inner, logs, kSpreadReach).solve();
+  if (!spread) return notComputed(patch);
+  for (const VertexId v : patch.surface.vertices()) {
+    if (inner.of[v] != kNone) sizes[v] = unit * math::exp((*spread)[inner.of[v]]);
+  }
+  return sizes;
+}
+
+Result<IdMap<VertexId, double>> turnedSizes(const Patch& patch, const CrossField& field, Progress& progress) {
   if (!progress.report(Stage::field, 1.0)) return cancelledError();
   IdMap<VertexId, double> sizes = patch.size;
   const InnerUnknowns inner(patch.surface);
   if (inner.count == 0) return sizes;
-  const double unit = *std::min_element(sizes.raw().begin(), sizes.raw().end());
-  const SettledSystem system = settledSystem(patch, field, inner, unit);
-  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(system.matrix);
-  const Eigen::MatrixXd logs = factor.solve(system.side);
-  if (factor.info() != Eigen::Success || !logs.allFinite()) {
-    return Error{ErrorCode::internal,
-                 "The sizes inside face " + std::to_string(patch.face) + " could not be computed.",
-                 {patch.face}};
-  }
+  const IdMap<VertexId, double> none(sizes.size(), 0.0);
+  const auto logs = pulledSystem(patch, field, inner, none, kTurnReach).solve();
+  if (!logs) return notComputed(patch);
   for (const VertexId v : patch.surface.vertices()) {
-    const std::int32_t i = inner.of[v];
-    if (i != kNone) sizes[v] = unit * math::exp(logs(i, 0) + math::bent(logs(i, 1), kMostForTurn));
+    if (inner.of[v] != kNone) sizes[v] *= math::exp(math::bent((*logs)[inner.of[v]], kMostForTurn));
   }
   return sizes;
 }

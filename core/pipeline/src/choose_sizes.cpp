@@ -54,7 +54,7 @@ class SizeChoice {
       if (const auto error = fit()) return *error;
     }
     if (!prepared_) {
-      if (const auto error = prepare(options_)) return *error;
+      if (const auto error = prepare(options_, settlingOf(options_))) return *error;
     }
     if (options_.quads && options_.fitSizes.value_or(false)) {
       if (const auto error = makeUpForSettled()) return *error;
@@ -73,8 +73,8 @@ class SizeChoice {
   [[nodiscard]] double count(const Trial& trial) const { return elementCount(trial, part_.options); }
   [[nodiscard]] const SizeScale* scale() const { return chosen_.scale.empty() ? nullptr : &chosen_.scale; }
 
-  std::optional<Error> prepare(const MeshOptions& options) {
-    auto prepared = prepareFaces(part_.mesh, part_.brep, options, scale(), limits_, progress_);
+  std::optional<Error> prepare(const MeshOptions& options, Settling settling) {
+    auto prepared = prepareFaces(part_.mesh, part_.brep, options, scale(), settling, limits_, progress_);
     if (!prepared) return prepared.error();
     prepared_ = std::move(prepared).value();
     limits_ = prepared_->size.limits;
@@ -105,9 +105,7 @@ class SizeChoice {
       return error.code == ErrorCode::cancelled ? std::optional(error) : std::nullopt;
     };
     const std::optional<MeshOptions> coarse = coarser();
-    MeshOptions even = coarse ? *coarse : options_;
-    even.fitSizes = false;
-    if (const auto error = prepare(even)) return onlyCancelled(*error);
+    if (const auto error = prepare(coarse ? *coarse : options_, Settling::spread)) return onlyCancelled(*error);
     auto scale = naturalScale(part_.brep, *prepared_, progress_);
     if (!scale) {
       prepared_.reset();
@@ -119,7 +117,7 @@ class SizeChoice {
       return std::nullopt;
     }
     // Even sizes are what this was prepared with.
-    return settleSizes(*prepared_, prepared_->changed, options_, progress_);
+    return turnSizes(*prepared_, prepared_->changed, options_, progress_);
   }
 
   /// Asks for fewer elements of the size field, so that with settled sizes there are as many as it would make without.
@@ -135,7 +133,7 @@ class SizeChoice {
       const std::int64_t fewer = roundedCount(std::max(enough, least));
       if (fewer == *options_.quads) break;
       options_.quads = fewer;
-      if (const auto error = prepare(options_)) return error;
+      if (const auto error = prepare(options_, settlingOf(options_))) return error;
     }
     return std::nullopt;
   }
@@ -149,7 +147,7 @@ class SizeChoice {
     std::int64_t asked = correctedCount(tried, wanted);
     for (; trials > 0 && asked != tried.asked; --trials) {
       options_.quads = roundedCount(static_cast<double>(asked) * share);
-      if (const auto error = prepare(options_)) return error;
+      if (const auto error = prepare(options_, settlingOf(options_))) return error;
       auto corrected = makeTrial(part_, options_, *std::exchange(prepared_, std::nullopt), progress_);
       if (!corrected) return corrected.error();
       const CountTrial now{asked, count(corrected.value())};

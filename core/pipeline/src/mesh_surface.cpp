@@ -109,7 +109,8 @@ Result<FieldResult> computeField(const TriangleMesh& input, const MeshOptions& o
   auto own = optionsFor(input, result.input, options);
   if (!own) return own.error();
   own.value().mode = Mode::qmcf;  // The field is wanted whatever front would ask it.
-  auto prepared = prepareFaces(result.input.repaired.mesh, result.input.brep, own.value(), nullptr, {}, progress);
+  auto prepared = prepareFaces(result.input.repaired.mesh, result.input.brep, own.value(), nullptr,
+                               settlingOf(own.value()), {}, progress);
   if (!prepared) return prepared.error();
   result.size = prepared.value().size.base;
   result.patches = std::move(prepared.value().patches);

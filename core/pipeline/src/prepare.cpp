@@ -70,10 +70,11 @@ bool isSamePatch(const Patch& a, const Patch& b) {
 class Preparation {
  public:
   Preparation(const TriangleMesh& mesh, const Brep& brep, const MeshOptions& options, const SizeScale* scale,
-              PreparedFaces before, Progress& progress)
+              Settling settling, PreparedFaces before, Progress& progress)
       : mesh_(mesh),
         brep_(brep),
         options_(options),
+        settling_(settling),
         result_(std::move(before)),
         progress_(progress),
         sizing_(sizingOptions(options, scale)) {
@@ -84,6 +85,8 @@ class Preparation {
     result_.patches.resize(brep.faces.size());
     result_.fields.resize(brep.faces.size());
     result_.given.resize(brep.faces.size(), Given::nothing);
+    result_.wantedElements.resize(brep.faces.size(), 0.0);
+    result_.settled.resize(brep.faces.size(), 0);
     give(std::move(result_.given));
   }
 
@@ -246,17 +249,18 @@ class Preparation {
     }
     const auto solve = [&](std::size_t i, Progress& progress) -> std::optional<Error> {
       const auto f = static_cast<std::size_t>(result_.changed[i]);
-      if (result_.given[f] != Given::nothing) return std::nullopt;
+      if (settling_ != Settling::none) {
+        if (auto error = spreadInside(result_, f, options_, progress)) return error;
+      }
+      if (result_.given[f] != Given::nothing || options_.mode == Mode::qmorph) return std::nullopt;
       auto field = computeCrossField(result_.patches[f], kinds, fieldOptions(options_), progress);
       if (!field) return field.error();
       result_.fields[f] = std::move(field).value();
       return std::nullopt;
     };
-    if (options_.mode != Mode::qmorph) {
-      if (const auto error = parallelFor(costs, threadsOf(options_), progress_, solve)) return *error;
-    }
-    if (options_.fitSizes.value_or(false)) {
-      if (const auto error = settleSizes(result_, result_.changed, options_, progress_)) return *error;
+    if (const auto error = parallelFor(costs, threadsOf(options_), progress_, solve)) return *error;
+    if (settling_ == Settling::turned) {
+      if (const auto error = turnSizes(result_, result_.changed, options_, progress_)) return *error;
     }
     result_.minimumDivisions = minimum_;
     return std::move(result_);
@@ -265,6 +269,7 @@ class Preparation {
   const TriangleMesh& mesh_;
   const Brep& brep_;
   const MeshOptions& options_;
+  Settling settling_;
   PreparedFaces result_;
   Progress& progress_;
   SizingOptions sizing_;
@@ -283,15 +288,32 @@ std::int32_t threadsOf(const MeshOptions& options) {
   return options.threads ? static_cast<std::int32_t>(*options.threads) : hardwareThreads();
 }
 
+Settling settlingOf(const MeshOptions& options) {
+  return options.fitSizes.value_or(false) ? Settling::turned : Settling::none;
+}
+
 Result<PreparedFaces> prepareFaces(const TriangleMesh& mesh, const Brep& brep, const MeshOptions& options,
-                                   const SizeScale* scale, const std::vector<SizeLimit>& limits, Progress& progress) {
-  return Preparation(mesh, brep, options, scale, {}, progress).run(limits);
+                                   const SizeScale* scale, Settling settling, const std::vector<SizeLimit>& limits,
+                                   Progress& progress) {
+  return Preparation(mesh, brep, options, scale, settling, {}, progress).run(limits);
+}
+
+std::optional<Error> turnSizes(PreparedFaces& prepared, const std::vector<std::int32_t>& faces,
+                               const MeshOptions& options, Progress& progress) {
+  std::vector<double> costs;
+  for (const std::int32_t face : faces) {
+    costs.push_back(static_cast<double>(prepared.patches[static_cast<std::size_t>(face)].surface.triangleCount()));
+  }
+  const auto turn = [&](std::size_t i, Progress& own) {
+    return turnInside(prepared, static_cast<std::size_t>(faces[i]), options, own);
+  };
+  return parallelFor(costs, threadsOf(options), progress, turn);
 }
 
 Result<PreparedFaces> refineFaces(const TriangleMesh& mesh, const Brep& brep, const MeshOptions& options,
                                   const SizeScale* scale, PreparedFaces prepared, const std::vector<SizeLimit>& limits,
                                   Progress& progress) {
-  Preparation preparation(mesh, brep, options, scale, std::move(prepared), progress);
+  Preparation preparation(mesh, brep, options, scale, settlingOf(options), std::move(prepared), progress);
   preparation.keepBaseSize();
   return preparation.run(limits);
 }
@@ -299,7 +321,7 @@ Result<PreparedFaces> refineFaces(const TriangleMesh& mesh, const Brep& brep, co
 Result<PreparedFaces> prepareGiven(const TriangleMesh& mesh, const Brep& brep, const MeshOptions& options,
                                    const SizeScale* scale, const PreparedSizes& before, const std::vector<Given>& given,
                                    Progress& progress) {
-  Preparation preparation(mesh, brep, options, scale, {}, progress);
+  Preparation preparation(mesh, brep, options, scale, settlingOf(options), {}, progress);
   preparation.keepSizes(before);
   preparation.give(given);
   return preparation.run({});

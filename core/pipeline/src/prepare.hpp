@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "qmcf/background/background.hpp"
@@ -15,6 +16,13 @@ std::int32_t threadsOf(const MeshOptions& options);
 
 /// What a face is made of: elements of the wanted size, or the part's own triangles, which fit whatever else fails.
 enum class Given : std::uint8_t { nothing, pairs, triangles };
+
+/// How the sizes inside faces come from those on their edges (E7 of docs/algorithm.md): as the size field has them,
+/// spread as rows of elements go on, or made to suit the crosses as well.
+enum class Settling : std::uint8_t { none, spread, turned };
+
+/// What the options ask for.
+Settling settlingOf(const MeshOptions& options);
 
 /// Everything that the faces need before they can be meshed one by one.
 struct PreparedFaces {
@@ -39,12 +47,17 @@ struct PreparedSizes {
 
 /// Size field, divided edges, background triangulations and cross fields. Edges whose chords would cut through a face
 /// get more divisions until none does; places that the triangulation can't follow get smaller elements.
-/// Where the options ask for sizes that fit the field, these are settled (settle_sizes.hpp), here and below. scale:
-/// what the size is multiplied by from place to place, here and below; nullptr: nothing. A size given in the options is
-/// the mean one then. limits: places known to need smaller elements, from a preparation with other sizes. Errors: those
-/// of the stages.
+/// settling: what happens to the sizes inside faces; below, what the options ask for (settlingOf()). scale: what the
+/// size is multiplied by from place to place, here and below; nullptr: nothing. A size given in the options is the mean
+/// one then. limits: places known to need smaller elements, from a preparation with other sizes. Errors: those of the
+/// stages.
 Result<PreparedFaces> prepareFaces(const TriangleMesh& mesh, const Brep& brep, const MeshOptions& options,
-                                   const SizeScale* scale, const std::vector<SizeLimit>& limits, Progress& progress);
+                                   const SizeScale* scale, Settling settling, const std::vector<SizeLimit>& limits,
+                                   Progress& progress);
+
+/// The inner sizes of these faces, which are spread, turn, too. faces: ascending. Errors: those of turnedSizes().
+std::optional<Error> turnSizes(PreparedFaces& prepared, const std::vector<std::int32_t>& faces,
+                               const MeshOptions& options, Progress& progress);
 
 /// The same with smaller elements at `limits` and the base size as it was. Faces out of their reach keep all they have,
 /// apart from the numbers of the shared nodes.

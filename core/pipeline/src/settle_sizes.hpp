@@ -1,8 +1,7 @@
 #pragma once
 
-#include <cstdint>
+#include <cstddef>
 #include <optional>
-#include <vector>
 
 #include "prepare.hpp"
 #include "qmcf/base/progress.hpp"
@@ -11,14 +10,17 @@
 
 namespace qmcf {
 
-/// Gives the patches of these faces the sizes inside that suit their edges and crosses (settledSizes(), E7 of
-/// docs/algorithm.md), not above the field's limits, nor above what the options ask for inside faces. The part's own
-/// triangles stay as they are. What the sizes wanted until now would take goes into prepared.wantedElements.
-/// faces: ascending. Errors: those of settledSizes().
-std::optional<Error> settleSizes(PreparedFaces& prepared, const std::vector<std::int32_t>& faces,
-                                 const MeshOptions& options, Progress& progress);
+/// Lets the sizes of the patch of a face spread from its edges inwards (spreadSizes(), E7 of docs/algorithm.md), not
+/// above the field's limits, nor above what the options ask for inside faces. The part's own triangles stay as they
+/// are. What the sizes wanted until now would take goes into prepared.wantedElements. Errors: those of spreadSizes().
+std::optional<Error> spreadInside(PreparedFaces& prepared, std::size_t face, const MeshOptions& options,
+                                  Progress& progress);
 
-/// About how many quads the sizes of the patch take.
+/// Makes the sizes suit the crosses of the face, too (turnedSizes()), under the same bounds. Errors: its.
+std::optional<Error> turnInside(PreparedFaces& prepared, std::size_t face, const MeshOptions& options,
+                                Progress& progress);
+
+/// About how many quads the sizes of the patch take, at least as many as its boundary needs.
 double expectedElements(const Patch& patch);
 
 }  // namespace qmcf

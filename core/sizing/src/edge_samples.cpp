@@ -123,19 +123,7 @@ void limitByLength(EdgeSamples& samples, double lowest) {
   }
 }
 
-void limitByGaps(EdgeSamples& samples, const std::vector<Gap>& gaps, double nominal, double lowest) {
-  // The tip of a wedge looks alike at all scales: smaller elements are no better there.
-  const double tip = 2.0 * nominal;
-  for (const Gap& gap : gaps) {
-    if (gap.aroundCorner < tip) continue;
-    // A strip can take elements longer than it is wide: the mean of both lengths keeps count and aspect at bay.
-    const double size = std::max(lowest, std::sqrt(gap.distance * nominal));
-    for (std::size_t end = 0; end < 2; ++end) samples.lower(gap.edge[end], gap.arcLength[end], size);
-  }
-}
-
-void levelAcross(EdgeSamples& samples, const std::vector<Gap>& gaps) {
-  constexpr double kOneRow = 1.5;  // In units of the size.
+void levelAcross(EdgeSamples& samples, const std::vector<Gap>& gaps, double oneRow) {
   struct Sum {
     double logs = 0.0;
     int count = 0;
@@ -148,7 +136,7 @@ void levelAcross(EdgeSamples& samples, const std::vector<Gap>& gaps) {
       const EdgeSizes& on = samples.sizes[static_cast<std::size_t>(gap.edge[end])];
       size[end] = interpolate(on.arcLength, on.value, gap.arcLength[end]);
     }
-    if (gap.distance > kOneRow * std::min(size[0], size[1])) continue;
+    if (gap.distance > oneRow * std::min(size[0], size[1])) continue;
     const double change = 0.5 * math::log(size[1] / size[0]);
     for (std::size_t end = 0; end < 2; ++end) {
       const auto e = static_cast<std::size_t>(gap.edge[end]);

@@ -2,7 +2,6 @@
 
 #include <array>
 #include <cstdint>
-#include <limits>
 #include <optional>
 #include <vector>
 
@@ -28,8 +27,6 @@ struct Gap {
   std::array<std::int32_t, 2> edge{kNone, kNone};
   std::array<double, 2> arcLength{};
   double distance = 0.0;
-  /// Length of the boundary between the two places if they are on the legs of one acute corner.
-  double aroundCorner = std::numeric_limits<double>::infinity();
 };
 
 /// Puts samples at each point of every edge and, between points, at most `spacing` apart, all with the size `base`.
@@ -52,11 +49,8 @@ void limitByLength(EdgeSamples& samples, double lowest);
 std::optional<std::vector<Gap>> findGaps(const std::vector<EdgeCurve>& curves, const Brep& brep, double reach,
                                          double spacing, Progress& progress);
 
-/// Lowers sizes at both ends of gaps narrower than `nominal`, the size away from edges.
-void limitByGaps(EdgeSamples& samples, const std::vector<Gap>& gaps, double nominal, double lowest);
-
-/// Where a gap is one element wide, gives both ends the geometric mean of their sizes: a row of elements has no room
-/// for a change of their number from one side to the other.
-void levelAcross(EdgeSamples& samples, const std::vector<Gap>& gaps);
+/// Where a gap is one element wide, `oneRow` of its sizes at most, gives both ends the geometric mean of their sizes: a
+/// row of elements has no room for a change of their number from one side to the other.
+void levelAcross(EdgeSamples& samples, const std::vector<Gap>& gaps, double oneRow);
 
 }  // namespace qmcf

@@ -66,7 +66,6 @@ struct BoundaryPlace {
   double end = 0.0;        ///< Arc length of the edge at its target.
   double alongLoop = 0.0;  ///< Length of the loop up to its origin.
   std::int32_t loop = kNone;
-  std::size_t coedge = 0;  ///< Index in the loop.
 };
 
 struct FaceBoundary {
@@ -88,7 +87,7 @@ FaceBoundary boundaryOf(const BrepFace& face, const FaceSurface& cut, const std:
         const std::size_t from = coedge.reversed ? segments - i : i;
         const std::size_t to = coedge.reversed ? from - 1 : from + 1;
         BoundaryPlace& place = boundary.place[cut.loops[l][next]];
-        place = {coedge.edge, curve.arcLength[from], curve.arcLength[to], sum, static_cast<std::int32_t>(l), c};
+        place = {coedge.edge, curve.arcLength[from], curve.arcLength[to], sum, static_cast<std::int32_t>(l)};
         sum += std::fabs(place.end - place.start);
       }
     }
@@ -99,31 +98,19 @@ FaceBoundary boundaryOf(const BrepFace& face, const FaceSurface& cut, const std:
 
 double along(const BoundaryPlace& place, double fraction) { return place.start + (place.end - place.start) * fraction; }
 
-/// The shorter way along a loop between two places.
-struct WayAround {
-  double length = std::numeric_limits<double>::infinity();  ///< If they are on one loop at all.
-  bool roundAcuteCorner = false;                            ///< With a single corner on it, an acute one.
-};
-
-WayAround wayAround(const BrepFace& face, const FaceBoundary& boundary, const BoundaryPlace& from, double fromFraction,
-                    const BoundaryPlace& to, const Hit& hit) {
-  constexpr double kAcute = 1.05;  // 60 degrees.
-  if (from.loop != to.loop) return {};
-  const auto loop = static_cast<std::size_t>(from.loop);
+/// The shorter way along a loop between two places, if they are on one loop at all.
+double wayAround(const FaceBoundary& boundary, const BoundaryPlace& from, double fromFraction, const BoundaryPlace& to,
+                 const Hit& hit) {
+  if (from.loop != to.loop) return std::numeric_limits<double>::infinity();
   const double here = from.alongLoop + std::fabs(from.end - from.start) * fromFraction;
   const double there = to.alongLoop + std::fabs(to.end - to.start) * hit.point.fraction;
-  const double ahead = there >= here ? there - here : boundary.loopLength[loop] - (here - there);
-  const double back = boundary.loopLength[loop] - ahead;
-  const std::vector<Coedge>& coedges = face.loops[loop].coedges;
-  const std::size_t first = ahead <= back ? from.coedge : to.coedge;
-  const std::size_t last = ahead <= back ? to.coedge : from.coedge;
-  const bool isNext = first != last && (first + 1) % coedges.size() == last;
-  return {std::min(ahead, back), isNext && coedges[last].cornerAngle < kAcute};
+  const double apart = std::fabs(there - here);
+  return std::min(apart, boundary.loopLength[static_cast<std::size_t>(from.loop)] - apart);
 }
 
 /// Shoots from the places on the half-edge that are odd multiples of half a step along its edge.
-void shootFromHalfedge(std::vector<Gap>& gaps, const BrepFace& face, const Surface& surface,
-                       const FaceBoundary& boundary, HalfedgeId h, double step, double reach) {
+void shootFromHalfedge(std::vector<Gap>& gaps, const Surface& surface, const FaceBoundary& boundary, HalfedgeId h,
+                       double step, double reach) {
   constexpr double kDetour = 3.0;
   const BoundaryPlace& place = boundary.place[h];
   const double first = std::min(place.start, place.end);
@@ -135,14 +122,12 @@ void shootFromHalfedge(std::vector<Gap>& gaps, const BrepFace& face, const Surfa
     if (!hit) continue;
     const BoundaryPlace& other = boundary.place[hit->point.halfedge];
     if (other.edge == kNone) continue;
-    const WayAround way = wayAround(face, boundary, place, fraction, other, *hit);
     // Merely the other leg of a nearby corner or bend.
-    if (way.length <= kDetour * hit->distance) continue;
+    if (wayAround(boundary, place, fraction, other, *hit) <= kDetour * hit->distance) continue;
     Gap& gap = gaps.emplace_back();
     gap.edge = {place.edge, other.edge};
     gap.arcLength = {s, along(other, hit->point.fraction)};
     gap.distance = hit->distance;
-    if (way.roundAcuteCorner) gap.aroundCorner = way.length;
   }
 }
 
@@ -153,7 +138,7 @@ std::optional<std::vector<Gap>> findGaps(const std::vector<EdgeCurve>& curves, c
   std::vector<Gap> gaps;
   for (std::size_t f = 0; f < brep.faces.size(); ++f) {
     const double done = static_cast<double>(f) / static_cast<double>(brep.faces.size());
-    if (!progress.report(Stage::sizing, 0.1 + 0.5 * done)) return std::nullopt;
+    if (!progress.report(Stage::sizing, 0.3 + 0.7 * done)) return std::nullopt;
     const BrepFace& face = brep.faces[f];
     if (face.loops.empty()) continue;
     const FaceSurface& cut = brep.cuts[f];
@@ -164,7 +149,7 @@ std::optional<std::vector<Gap>> findGaps(const std::vector<EdgeCurve>& curves, c
         if (edge == kNone) continue;
         const double length = curves[static_cast<std::size_t>(edge)].length();
         if (!(length > 0.0)) continue;
-        shootFromHalfedge(gaps, face, cut.surface, boundary, h, length / std::ceil(length / spacing), reach);
+        shootFromHalfedge(gaps, cut.surface, boundary, h, length / std::ceil(length / spacing), reach);
       }
     }
   }

@@ -231,7 +231,20 @@ double SampleGraph::countUnder(const InnerSizes& inner, std::size_t face, const 
   return sum;
 }
 
-double SampleGraph::count(const TriangleMesh& mesh, const Brep& brep, const InnerSizes& inner, double gradation) const {
+namespace {
+
+double leastElements(const BrepFace& face, const std::vector<double>& divisions) {
+  double outline = 0.0;
+  for (const BrepLoop& loop : face.loops) {
+    for (const Coedge& coedge : loop.coedges) outline += divisions[static_cast<std::size_t>(coedge.edge)];
+  }
+  return fewestQuads(outline, 2.0 - static_cast<double>(face.loops.size()));
+}
+
+}  // namespace
+
+double SampleGraph::count(const TriangleMesh& mesh, const Brep& brep, const InnerSizes& inner, double gradation,
+                          const std::vector<double>& divisions) const {
   double sum = 0.0;
   for (std::size_t f = 0; f < brep.faces.size(); ++f) {
     std::vector<std::int32_t> tips;
@@ -239,12 +252,15 @@ double SampleGraph::count(const TriangleMesh& mesh, const Brep& brep, const Inne
       const auto node = static_cast<std::size_t>(n);
       if (size_[node] < highest_[node]) tips.push_back(n);
     }
+    double count = 0.0;
     if (!inner.empty()) {
-      sum += countUnder(inner, f, Cones(*this, tips, gradation));
+      count = countUnder(inner, f, Cones(*this, tips, gradation));
+    } else if (tips.empty()) {
+      count = brep.faces[f].area / (base_ * base_);
     } else {
-      sum += tips.empty() ? brep.faces[f].area / (base_ * base_)
-                          : countOnFace(mesh, brep.faces[f], Cones(*this, tips, gradation));
+      count = countOnFace(mesh, brep.faces[f], Cones(*this, tips, gradation));
     }
+    sum += std::max(count, leastElements(brep.faces[f], divisions));
   }
   return sum;
 }

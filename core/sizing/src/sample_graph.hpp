@@ -15,9 +15,10 @@ class SampleGraph {
 
   /// Limits the slope of the sizes, along edges and straight across the faces beside them.
   void grade(double gradation);
-  /// About how many quads of these sizes, and no larger ones than `inner`, the surface takes. \pre grade() was called.
-  [[nodiscard]] double count(const TriangleMesh& mesh, const Brep& brep, const InnerSizes& inner,
-                             double gradation) const;
+  /// About how many quads of these sizes, and no larger ones than `inner`, the surface takes, but at least as many as
+  /// so many divisions per edge need. \pre grade() was called.
+  [[nodiscard]] double count(const TriangleMesh& mesh, const Brep& brep, const InnerSizes& inner, double gradation,
+                             const std::vector<double>& divisions) const;
   /// Copies the sizes to the samples and the limits that the graph was made of.
   void store(EdgeSamples& samples, std::vector<SizeLimit>& limits) const;
 

@@ -19,13 +19,16 @@ namespace {
 
 // In units of the base size: how small the edges themselves may make an element.
 constexpr double kLowestByTurning = 0.1;
-constexpr double kLowestByProximity = 0.25;
 constexpr double kLowestByLength = 0.3;
 constexpr double kSampleSpacing = 0.5;
 // The base size that makes the number of quads come out right is found by trying.
 constexpr int kAttempts = 6;
 constexpr double kCountTolerance = 0.02;
-constexpr double kReachByCount = 3.0;
+// Larger elements make up for small ones at edges up to here, and for those that curvature asks for.
+constexpr double kReachByCount = 1.7;
+constexpr double kReachByCurvature = 3.0;
+// A gap of so many sizes takes one row of elements.
+constexpr double kOneRow = 1.5;
 // A smooth arc in the least number of divisions, and some room for corners of its polygon.
 constexpr double kRoomForSagitta = 1.1;
 constexpr std::int64_t kDefaultQuads = 3000;
@@ -113,6 +116,22 @@ class CountSearch {
   double y_ = 0.0;
 };
 
+/// Per edge: how many divisions its sizes ask for.
+std::vector<double> divisionsOf(const EdgeSamples& samples, const std::vector<std::int32_t>& least) {
+  std::vector<double> divisions;
+  divisions.reserve(samples.sizes.size());
+  for (std::size_t e = 0; e < samples.sizes.size(); ++e) {
+    const EdgeSizes& sizes = samples.sizes[e];
+    double wanted = 0.0;
+    for (std::size_t i = 0; i + 1 < sizes.value.size(); ++i) {
+      const double density = 0.5 * (1.0 / sizes.value[i] + 1.0 / sizes.value[i + 1]);
+      wanted += density * (sizes.arcLength[i + 1] - sizes.arcLength[i]);
+    }
+    divisions.push_back(std::max(wanted, static_cast<double>(least[e])));
+  }
+  return divisions;
+}
+
 /// Lowers the sizes at the vertices of each face to the cones of the limits in it.
 void applyLimits(std::vector<double>& value, const TriangleMesh& mesh, const Brep& brep,
                  const std::vector<SizeLimit>& limits, double gradation) {
@@ -159,10 +178,8 @@ Result<SizeField> computeSizeField(const TriangleMesh& mesh, const Brep& brep, c
   const double first = byCount ? base.value() / mean : base.value();
   EdgeSamples samples;
   for (const BrepEdge& edge : brep.edges) samples.curves.push_back(edgeCurve(mesh, edge));
-  // Room for a base that grows until the count fits.
-  const double reach = byCount ? kReachByCount * first : first;
-  const auto gaps = findGaps(samples.curves, brep, reach, kSampleSpacing * first * mean, progress);
-  if (!gaps) return cancelledError();
+  const double reach = options.curvature ? kReachByCurvature : kReachByCount;
+  const double largest = byCount ? reach * first : first;
   const InnerSources sources(mesh, brep, options, first);
 
   SizeField field;
@@ -175,7 +192,7 @@ Result<SizeField> computeSizeField(const TriangleMesh& mesh, const Brep& brep, c
   CountSearch search(field.base);
   const auto wanted = static_cast<double>(options.quads.value_or(kDefaultQuads));
   for (int attempt = 0; attempt < kAttempts; ++attempt) {
-    if (!progress.report(Stage::sizing, 0.6 + 0.05 * attempt)) return cancelledError();
+    if (!progress.report(Stage::sizing, 0.05 * attempt)) return cancelledError();
     field.nominal = field.base * mean;
     if (sources.empty()) {
       resample(samples, field.base, kSampleSpacing * field.nominal);
@@ -187,16 +204,18 @@ Result<SizeField> computeSizeField(const TriangleMesh& mesh, const Brep& brep, c
     field.minimumDivisions = limitByTurning(samples, options.divisionsPerTurn, kLowestByTurning * field.nominal,
                                             field.mostSagitta * field.chordSize);
     limitByLength(samples, kLowestByLength * field.nominal);
-    limitByGaps(samples, *gaps, field.nominal, kLowestByProximity * field.nominal);
     SampleGraph graph(samples, brep, options.limits);
     graph.grade(options.gradation);
     graph.store(samples, field.limits);
     if (!byCount || attempt + 1 == kAttempts) break;
-    const double ratio = graph.count(mesh, brep, field.inner, options.gradation) / wanted;
+    const double ratio =
+        graph.count(mesh, brep, field.inner, options.gradation, divisionsOf(samples, field.minimumDivisions)) / wanted;
     if (std::fabs(ratio - 1.0) < kCountTolerance) break;
-    field.base = std::clamp(search.next(field.base, ratio), first, reach);
+    field.base = std::clamp(search.next(field.base, ratio), first, largest);
   }
-  levelAcross(samples, *gaps);
+  const auto rows = findGaps(samples.curves, brep, kOneRow * field.nominal, kSampleSpacing * field.nominal, progress);
+  if (!rows) return cancelledError();
+  levelAcross(samples, *rows, kOneRow);
   field.sources = sources.counts(field.base);
   field.value = vertexSizes(mesh, brep, samples, field.inner, field.limits, options.gradation);
   field.edges = std::move(samples.sizes);

@@ -106,31 +106,38 @@ TEST(NaturalSize, LeavesNoRowToEndInABend) {
   EXPECT_EQ(expectedRowEnds(patches, {CrossField{}}, even), 0.0);
 }
 
-IdMap<VertexId, double> settled(const Patch& patch, const CrossField& field) {
+IdMap<VertexId, double> spread(const Patch& patch) {
   SilentProgress progress;
-  auto sizes = settledSizes(patch, field, progress);
+  auto sizes = spreadSizes(patch, progress);
   EXPECT_TRUE(sizes.ok());
   return std::move(sizes).value();
 }
 
-TEST(SettledSizes, KeepWhatFitsTheFieldAlready) {
+IdMap<VertexId, double> turned(const Patch& patch, const CrossField& field) {
+  SilentProgress progress;
+  auto sizes = turnedSizes(patch, field, progress);
+  EXPECT_TRUE(sizes.ok());
+  return std::move(sizes).value();
+}
+
+TEST(SpreadSizes, KeepWhatRowsCanFollowAlready) {
   const Patch square = testing::makeSquare(12);
-  const IdMap<VertexId, double> even = settled(square, solve(square));
-  for (const VertexId v : square.surface.vertices()) EXPECT_NEAR(even[v], square.size[v], 1e-12);
-  // log r is harmonic, and its gradient what the bend asks for.
+  const IdMap<VertexId, double> even = spread(square);
+  for (const VertexId v : square.surface.vertices()) EXPECT_EQ(even[v], square.size[v]);
+  // log r is harmonic.
   Patch sector = makeSector(1.0, 2.0, 60, 40);
   for (const VertexId v : sector.surface.vertices()) sector.size[v] = 0.04 * radiusOf(sector, v);
-  const IdMap<VertexId, double> growing = settled(sector, solve(sector));
+  const IdMap<VertexId, double> growing = spread(sector);
   for (const VertexId v : sector.surface.vertices()) EXPECT_NEAR(growing[v] / sector.size[v], 1.0, 2e-3);
 }
 
-TEST(SettledSizes, GoBackToThoseWantedWithinFiveElements) {
+TEST(SpreadSizes, GoBackToThoseWantedWithinFourElements) {
   // A square whose edges have half the size wanted inside: far from the corners a function of the distance alone.
   constexpr double kInside = 0.02;
   Patch square = testing::makeSquare(60);
   for (const VertexId v : square.surface.vertices()) square.size[v] = square.surface.isBoundary(v) ? 0.01 : kInside;
-  const IdMap<VertexId, double> sizes = settled(square, CrossField{});
-  const double reach = 5.0 * kInside;
+  const IdMap<VertexId, double> sizes = spread(square);
+  const double reach = 4.0 * kInside;
   for (const VertexId v : square.surface.vertices()) {
     if (square.surface.isBoundary(v)) {
       EXPECT_EQ(sizes[v], square.size[v]);
@@ -145,11 +152,20 @@ TEST(SettledSizes, GoBackToThoseWantedWithinFiveElements) {
   }
 }
 
-TEST(SettledSizes, AreSmallestAroundPositiveSingularities) {
+TEST(TurnedSizes, StayWhereTheFieldDoesNotTurn) {
+  const Patch square = testing::makeSquare(12);
+  const IdMap<VertexId, double> straight = turned(square, solve(square));
+  for (const VertexId v : square.surface.vertices()) EXPECT_NEAR(straight[v], square.size[v], 1e-12);
+  const Patch sphere = testing::makeSphere(8);
+  const IdMap<VertexId, double> unasked = turned(sphere, CrossField{});
+  for (const VertexId v : sphere.surface.vertices()) EXPECT_NEAR(unasked[v], sphere.size[v], 1e-12);
+}
+
+TEST(TurnedSizes, AreSmallestAroundPositiveSingularities) {
   const Patch sphere = testing::makeSphere(16);
   const CrossField field = solve(sphere);
   ASSERT_EQ(field.singularities.size(), 8U);
-  const IdMap<VertexId, double> sizes = settled(sphere, field);
+  const IdMap<VertexId, double> sizes = turned(sphere, field);
   double least = 1e9;
   double most = 0.0;
   for (const VertexId v : sphere.surface.vertices()) {
@@ -166,10 +182,10 @@ TEST(SettledSizes, AreSmallestAroundPositiveSingularities) {
   }
 }
 
-TEST(SettledSizes, DoNotDependOnTheUnitOfLength) {
+TEST(SpreadSizes, DoNotDependOnTheUnitOfLength) {
   Patch square = testing::makeSquare(8);
   for (const VertexId v : square.surface.vertices()) square.size[v] = 0.05 + 0.1 * square.surface.position(v).x;
-  const IdMap<VertexId, double> sizes = settled(square, CrossField{});
+  const IdMap<VertexId, double> sizes = spread(square);
   std::vector<Vec3> positions;
   std::vector<std::array<std::int32_t, 3>> triangles;
   for (const VertexId v : square.surface.vertices()) positions.push_back(square.surface.position(v) * 1024.0);
@@ -179,7 +195,7 @@ TEST(SettledSizes, DoNotDependOnTheUnitOfLength) {
   }
   square.surface = Surface::build(std::move(positions), triangles).value();
   for (double& size : square.size.raw()) size *= 1024.0;
-  const IdMap<VertexId, double> larger = settled(square, CrossField{});
+  const IdMap<VertexId, double> larger = spread(square);
   for (const VertexId v : square.surface.vertices()) EXPECT_EQ(larger[v], 1024.0 * sizes[v]);
 }
 

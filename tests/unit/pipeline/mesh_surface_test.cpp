@@ -467,7 +467,7 @@ TEST(MeshSurface, FitsSizesToTheFieldWhereThatIsBetter) {
   EXPECT_FALSE(even.value().fittedSizes);
   EXPECT_TRUE(fitted.value().fittedSizes);
   EXPECT_LT(fitted.value().quality.irregularVertices, even.value().quality.irregularVertices);
-  EXPECT_GT(fitted.value().quality.scaledJacobian.mean, even.value().quality.scaledJacobian.mean);
+  EXPECT_LT(fitted.value().quality.jacobianRatio.mean, even.value().quality.jacobianRatio.mean);
   EXPECT_NEAR(static_cast<double>(fitted.value().quality.quads), 900.0, 45.0);
   EXPECT_NEAR(fitted.value().size, even.value().size, 0.02 * even.value().size);
   const auto [least, most] = std::minmax_element(fitted.value().vertexSize.begin(), fitted.value().vertexSize.end());

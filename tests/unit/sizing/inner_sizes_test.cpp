@@ -117,8 +117,8 @@ TEST(Curvature, OfARoundingFadesAcrossTheLargeTrianglesBesideIt) {
       const auto t = static_cast<std::size_t>(at.triangle);
       h += at.barycentric[c] * field.inner.value[static_cast<std::size_t>(field.inner.triangles[t][c])];
     }
-    EXPECT_LE(h, std::min(2.0, 1.35 * (small - 0.2 * x))) << x;
-    EXPECT_GE(h, std::min(2.0, 0.8 * (small - 0.2 * x)) - 1e-12) << x;
+    EXPECT_LE(h, std::min(2.0, 1.35 * (small - field.gradation * x))) << x;
+    EXPECT_GE(h, std::min(2.0, 0.8 * (small - field.gradation * x)) - 1e-12) << x;
   }
   for (const EdgeSizes& edge : field.edges) {
     if (std::fabs(edge.arcLength.back() - (40.0 + 0.5 * math::kPi)) > 0.1) continue;

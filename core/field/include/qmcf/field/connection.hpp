@@ -18,10 +18,18 @@ struct Connection {
   IdMap<HalfedgeId, double> angle;   ///< Direction of the half-edge at its origin.
   IdMap<VertexId, double> fan;       ///< Sum of the Euclidean angles.
   IdMap<VertexId, double> total;     ///< Sum of the scaled angles.
+  /// By how much a direction turns further when it is moved along the half-edge, since elements grow to one side of it:
+  /// followSizes(). Empty: not at all.
+  IdMap<HalfedgeId, double> growth;
 };
 
 /// Complexity O(n). Degenerate triangles count with angle 0; a fan of such triangles alone is divided evenly.
 Connection buildConnection(const Patch& patch);
+
+/// Measures by the patch's sizes h: lengths in elements instead of units of the model. Angles stay, but what is
+/// straight bends towards smaller elements; directions turn by J grad(ln h) (A9 of docs/algorithm.md). Along the
+/// boundary, which is straight for crosses, nothing changes. Sizes that are the same everywhere change nothing.
+void followSizes(const Patch& patch, Connection& connection);
 
 /// Quads wanted at a boundary vertex, 1 to 4: Patch::cornerQuads, or from the fan's angle where the patch does not say.
 std::int32_t wantedQuads(const Patch& patch, VertexId boundaryVertex, double fanAngle);
@@ -34,7 +42,7 @@ double transportAngle(const Surface& surface, const Connection& connection, Half
 std::complex<double> transportCross(const Surface& surface, const Connection& connection, HalfedgeId h);
 
 /// Angle by which a direction turns when it is moved around the triangle, not reduced modulo 2 pi. Over a patch these
-/// add up to 2 pi chi - pi/2 * (sum of 2 - k over the boundary vertices).
+/// add up to 2 pi chi - pi/2 * (sum of 2 - k over the boundary vertices), whatever the sizes.
 double triangleCurvature(const Connection& connection, TriangleId t);
 
 }  // namespace qmcf

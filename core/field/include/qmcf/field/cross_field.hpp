@@ -50,6 +50,7 @@ struct FieldOptions {
   /// within an element. Edges come first; where lines contradict each other, the nearer one holds.
   std::vector<FieldStroke> strokes;
   FieldEnergy energy = FieldEnergy::cotangent;
+  bool followSizes = true;  ///< Turn as elements do that grow to one side: see followSizes(), A9.
   double smoothness = 0.0;  ///< s in [-1, 1] from antiholomorphic to holomorphic energy; finiteElements only.
   FieldSolver solver = FieldSolver::eliminate;
   bool mask = true;       ///< The paper's alpha: curvature does not guide next to pinned vertices.
@@ -81,9 +82,10 @@ struct CrossField {
   /// Per triangle: the field at its corners as u in the triangle's own frame (x along its first half-edge, normal of
   /// the triangle), continuous across the corners: their barycentric mean interpolates.
   IdMap<TriangleId, std::array<std::complex<double>, 3>> corner;
-  /// Per triangle and corner: by how much the field turns further towards the corner, in radians. Not zero only where a
-  /// boundary curve was cut into chords: there the field follows the tangent at the node and the chord in its middle.
-  IdMap<TriangleId, std::array<double, 3>> tangentTurn;
+  /// Per triangle and corner: by how much the field turns further towards the corner, in radians. Not zero only where
+  /// elements grow (A9), and where a boundary curve was cut into chords: there the field follows the tangent at the
+  /// node and the chord in its middle.
+  IdMap<TriangleId, std::array<double, 3>> extraTurn;
   std::vector<Singularity> singularities;  ///< By triangle.
   double eigenvalue = 0.0;  ///< The least one, where nothing is pinned, guides or diffuses the field; else 0.
   double energy = 0.0;      ///< Dirichlet energy of the normalised field, half of u^H A u.

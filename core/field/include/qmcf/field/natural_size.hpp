@@ -19,13 +19,16 @@ namespace qmcf {
 Result<std::vector<IdMap<VertexId, double>>> naturalSizes(const std::vector<Patch>& patches,
                                                           const std::vector<CrossField>& fields, Progress& progress);
 
-/// The sizes wanted, as a mesh of squares that follows the crosses can take them up from the boundary of a patch
-/// inwards: with log h = s + w, the s that minimises the integral of |grad(s)|^2 + ((s - log size) / r)^2 and is log
-/// size on the boundary, and the w that minimises that of |grad(w) + rotated(grad(angle))|^2 + (w / r)^2 and is 0
-/// there, bent to stay within 0.3 either way; r is five times the size. A patch without a boundary has sizes of its own
-/// as well. E7 of docs/algorithm.md. field: an empty one does not turn. Returns h per vertex. Errors: cancelled,
-/// internal (factorisation failed).
-Result<IdMap<VertexId, double>> settledSizes(const Patch& patch, const CrossField& field, Progress& progress);
+/// The sizes wanted, as rows of elements can take them up from the boundary of a patch inwards: the s that minimises
+/// the integral of |grad(s)|^2 + ((s - log size) / r)^2 and is log size on the boundary, r being four times the size.
+/// E7 of docs/algorithm.md. Returns h = exp(s) per vertex. Errors: cancelled, internal (factorisation failed).
+Result<IdMap<VertexId, double>> spreadSizes(const Patch& patch, Progress& progress);
+
+/// The patch's sizes as a mesh of squares that follows the crosses wants them: times exp(w), the w that minimises the
+/// integral of |grad(w) + rotated(grad(angle))|^2 + (w / r)^2 and is 0 on the boundary, bent to stay within 0.3 either
+/// way; r is eight times the size. A patch without a boundary has sizes of its own as well. E7 of docs/algorithm.md.
+/// field: an empty one does not turn. Returns h per vertex. Errors: cancelled, internal (factorisation failed).
+Result<IdMap<VertexId, double>> turnedSizes(const Patch& patch, const CrossField& field, Progress& progress);
 
 /// How many rows of elements are to be expected to end inside the patches if these have the sizes h = patch.size *
 /// exp(log): the integral of |grad(log h) + rotated(grad(angle))| / patch.size; not / h, or larger elements where most

@@ -49,7 +49,7 @@ struct MeshOptions {
   Mode mode = Mode::qmcf;      ///< The advancing front.
   bool allQuad = false;        ///< No triangles: a mesh of twice the size with every element cut at its edges' middles.
   bool repair = true;          ///< false: defects of the input are reported and left as they are.
-  double gradation = 0.2;      ///< Largest slope of the size field, (0, 1].
+  double gradation = 0.25;     ///< Largest slope of the size field before it settles inside faces, (0, 1].
   bool alignBoundary = true;   ///< Field constraint: boundary edges.
   bool alignSharp = true;      ///< Field constraint: sharp edges.
   bool alignNonManifold = true;      ///< Field constraint: non-manifold edges.

@@ -27,4 +27,9 @@ double countInTriangle(const std::array<double, 3>& size, double area);
 /// The same over all triangles: about the number of quads of these sizes.
 double countOf(const InnerSizes& sizes);
 
+/// How many quadrilaterals a face has that has no vertex inside: 4 Q = 2 E_inside + B and V - E + Q = chi. A row of
+/// them has as many as it is long, however narrow it is. outline: its boundary's divisions; euler: its Euler
+/// characteristic.
+inline double fewestQuads(double outline, double euler) { return 0.5 * outline - euler; }
+
 }  // namespace qmcf

@@ -37,7 +37,7 @@ struct SizingOptions {
   std::optional<double> curvature;
   /// What the base size is multiplied by from place to place; nullptr: nothing.
   const SizeScale* scale = nullptr;
-  double gradation = 0.2;             ///< Largest |grad h|, in (0, 1].
+  double gradation = 0.25;            ///< Largest |grad h|, in (0, 1].
   std::int32_t divisionsPerTurn = 8;  ///< Least number of edges in a full turn of a feature edge, >= 3.
   std::vector<SizeLimit> limits;      ///< Where the elements have to be smaller.
   /// What the chords' distance from a curved edge is measured by, > 0: SizeField::chordSize. Default: `size`, or the
@@ -69,7 +69,7 @@ struct SizeSources {
 struct SizeField {
   double base = 0.0;              ///< The length asked for, or derived from the count: nowhere more.
   double nominal = 0.0;           ///< The same in the mean over the scale: base, if there is none.
-  double gradation = 0.2;         ///< Largest |grad h|.
+  double gradation = 0.25;        ///< Largest |grad h|.
   std::vector<double> value;      ///< Per vertex of the mesh, > 0.
   std::vector<EdgeSizes> edges;   ///< Per edge of the B-rep; finer than the edge's points where these are sparse.
   std::vector<SizeLimit> limits;  ///< As given, but graded.
@@ -81,10 +81,10 @@ struct SizeField {
   double chordSize = std::numeric_limits<double>::infinity();  ///< The size that would be, were it the same everywhere.
 };
 
-/// The sizes: `size`, or a length such that the elements of the whole field are about `quads`, within three times the
+/// The sizes: `size`, or a length such that the elements of the whole field are about `quads`, within 1.7 times the
 /// one for a field that is the same everywhere; not above vertexSize; smaller where a face is curved, down to a tenth
 /// of base, where a feature edge turns (at least divisionsPerTurn divisions in a full turn, also in a small closed
-/// edge), where two edges of a face run close to each other, and on short edges; not below a tenth of base, except by
+/// edge), and on short edges; not below a tenth of base, except by
 /// the divisions of a small closed edge and by limits; then graded, and levelled where a face is one element wide: the
 /// slope there may be more. Complexity O(n log n). Errors: invalidOption, cancelled.
 Result<SizeField> computeSizeField(const TriangleMesh& mesh, const Brep& brep, const SizingOptions& options,
