@@ -8,14 +8,13 @@
 
 #include "cavity.hpp"
 #include "operators.hpp"
-#include "qmcf/base/math.hpp"
 #include "qmcf/mesh/element_shape.hpp"
 #include "qmcf/mesh/side_pattern.hpp"
 
 namespace qmcf {
 namespace {
 
-constexpr std::size_t kLargestCavity = 300;
+constexpr std::size_t kLargestCavity = 150;
 /// A pattern may leave elements this bad where there were no worse ones before.
 constexpr double kGoodShape = 0.45;
 /// How much of the mean shape a more regular mesh is worth.
@@ -24,11 +23,9 @@ constexpr double kNoTriangleWorth = 0.1;
 /// Energy of two irregular vertices, and how many patterns with two are tried.
 constexpr int kTwoEnergy = 2;
 constexpr std::size_t kMostTries = 6;
-/// How much distortion, summed over the elements, a unit of energy is worth; how much of it an element of twice or half
-/// the size is; and how much more stretch, and loss of mean shape, a pattern may cost before it is relaxed to be tried
-/// at all.
+/// How much distortion, summed over the elements, a unit of energy is worth; and how much more stretch, and loss of
+/// mean shape, a pattern may cost before it is relaxed to be tried at all.
 constexpr double kDistortionWorth = 1.0;
-constexpr double kSizeWorth = 1.5;
 constexpr double kPromisedStretch = 6.5;
 constexpr double kPromisedLoss = 0.2;
 constexpr int kSettleSweeps = 12;
@@ -78,16 +75,29 @@ double stretchOf(const EditMesh& mesh, const std::vector<FaceId>& faces) {
   return sum;
 }
 
-/// Sum over the quadrilaterals of stretch() and of how far their size is off.
-double distortionOf(const EditMesh& mesh, const std::vector<FaceId>& faces, const RelaxationTarget& target) {
-  double sum = stretchOf(mesh, faces);
+/// The area that is wanted of each element.
+std::vector<double> wantedAreas(const EditMesh& mesh, const std::vector<FaceId>& faces,
+                                const RelaxationTarget& target) {
+  std::vector<double> areas;
+  areas.reserve(faces.size());
   for (const FaceId f : faces) {
-    const auto sides = mesh.sides(f);
+    const double size = wantedSize(target, mesh.vertex(mesh.origin(mesh.sides(f)[0])));
+    areas.push_back(size * size);
+  }
+  return areas;
+}
+
+/// Sum over the quadrilaterals of stretch() and of how much larger or smaller they are than wanted: the ratio of the
+/// areas less 1.
+double distortionOf(const EditMesh& mesh, const std::vector<FaceId>& faces, const std::vector<double>& wantedAreas) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    const auto sides = mesh.sides(faces[i]);
     if (!sides[3].valid()) continue;
-    const auto p = [&](std::size_t i) -> const Vec3& { return mesh.position(mesh.origin(sides[i])); };
-    const double size = wantedSize(target, mesh.vertex(mesh.origin(sides[0])));
+    const auto p = [&](std::size_t c) -> const Vec3& { return mesh.position(mesh.origin(sides[c])); };
     const double area = 0.5 * norm(cross(p(2) - p(0), p(3) - p(1)));
-    sum += 0.5 * kSizeWorth * std::fabs(math::log2(area / (size * size)));
+    sum += stretch(p(0), p(1), p(2), p(3));
+    sum += std::max(area, wantedAreas[i]) / std::min(area, wantedAreas[i]) - 1.0;
   }
   return sum;
 }
@@ -243,7 +253,7 @@ TopologicalCleanup::Measures TopologicalCleanup::measureCavity(std::size_t trian
   measures.least = std::min(triangles > 0 ? options_.leastShape : kGoodShape, shapes.worst);
   measures.meanShape = shapes.mean;
   measures.stretch = stretchOf(mesh_, cavity_.faces());
-  measures.distortion = distortionOf(mesh_, cavity_.faces(), target_);
+  measures.distortion = distortionOf(mesh_, cavity_.faces(), wantedAreas(mesh_, cavity_.faces(), target_));
   return measures;
 }
 
@@ -274,10 +284,12 @@ std::vector<EditMesh::Vertex> TopologicalCleanup::innerVertices(const SidePatter
 /// Relaxes a cavity that was filled anew. Returns whether its elements are less distorted than allowed in the end.
 bool TopologicalCleanup::settleFilled(const std::vector<FaceId>& filled, const std::vector<VertexId>& moving,
                                       const RelaxationTarget& rough, double allowed) {
-  double distortion = distortionOf(mesh_, filled, target_);
+  // The vertices move, but not so far that much else is wanted of them.
+  const std::vector<double> areas = wantedAreas(mesh_, filled, target_);
+  double distortion = distortionOf(mesh_, filled, areas);
   for (int sweep = 0; sweep < kSettleSweeps; ++sweep) {
     relax(mesh_, moving, sweep < kRoughSweeps ? rough : target_, kGoodShape);
-    const double before = std::exchange(distortion, distortionOf(mesh_, filled, target_));
+    const double before = std::exchange(distortion, distortionOf(mesh_, filled, areas));
     if (!(foreseen(distortion, before, kSettleSweeps - 1 - sweep) <= allowed)) return false;
   }
   return true;

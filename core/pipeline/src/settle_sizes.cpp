@@ -13,17 +13,24 @@ namespace {
 /// A change of the size by less than this is not noticed.
 constexpr double kNoticed = 0.05;
 
+/// Lowers sizes to the cones that rise from the field's limits in the patch.
+void lowerToLimits(const Patch& patch, const SizeField& field, IdMap<VertexId, double>& sizes) {
+  for (const SizeLimit& limit : field.limits) {
+    if (limit.face != patch.face) continue;
+    for (const VertexId v : patch.surface.vertices()) {
+      const double most = limit.size + field.gradation * distance(limit.position, patch.surface.position(v));
+      sizes[v] = std::min(sizes[v], most);
+    }
+  }
+}
+
 /// Gives the patch these sizes, as far as they are allowed.
-void take(PreparedFaces& prepared, std::size_t face, const IdMap<VertexId, double>& sizes, const MeshOptions& options) {
+void take(PreparedFaces& prepared, std::size_t face, IdMap<VertexId, double> sizes, const MeshOptions& options) {
   Patch& patch = prepared.patches[face];
+  lowerToLimits(patch, prepared.size, sizes);
   const bool asksInside = options.curvature || !options.sizes.empty();
   for (const VertexId v : patch.surface.vertices()) {
-    double size = asksInside ? std::min(sizes[v], patch.size[v]) : sizes[v];
-    for (const SizeLimit& limit : prepared.size.limits) {
-      if (limit.face != patch.face) continue;
-      const double apart = distance(limit.position, patch.surface.position(v));
-      size = std::min(size, limit.size + prepared.size.gradation * apart);
-    }
+    const double size = asksInside ? std::min(sizes[v], patch.size[v]) : sizes[v];
     if (std::fabs(size / patch.size[v] - 1.0) > kNoticed) prepared.settled[face] = 1;
     patch.size[v] = size;
   }
@@ -38,7 +45,7 @@ std::optional<Error> spreadInside(PreparedFaces& prepared, std::size_t face, con
   if (prepared.given[face] != Given::nothing) return std::nullopt;
   auto sizes = spreadSizes(prepared.patches[face], progress);
   if (!sizes) return sizes.error();
-  take(prepared, face, sizes.value(), options);
+  take(prepared, face, std::move(sizes).value(), options);
   return std::nullopt;
 }
 
@@ -47,7 +54,7 @@ std::optional<Error> turnInside(PreparedFaces& prepared, std::size_t face, const
   if (prepared.given[face] != Given::nothing) return std::nullopt;
   auto sizes = turnedSizes(prepared.patches[face], prepared.fields[face], progress);
   if (!sizes) return sizes.error();
-  take(prepared, face, sizes.value(), options);
+  take(prepared, face, std::move(sizes).value(), options);
   return std::nullopt;
 }
 

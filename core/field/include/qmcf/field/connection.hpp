@@ -26,9 +26,10 @@ struct Connection {
 /// Complexity O(n). Degenerate triangles count with angle 0; a fan of such triangles alone is divided evenly.
 Connection buildConnection(const Patch& patch);
 
-/// Measures by the patch's sizes h: lengths in elements instead of units of the model. Angles stay, but what is
-/// straight bends towards smaller elements; directions turn by J grad(ln h) (A9 of docs/algorithm.md). Along the
-/// boundary, which is straight for crosses, nothing changes. Sizes that are the same everywhere change nothing.
+/// Measures by the patch's sizes h: lengths in elements instead of units of the model. Angles stay, but straight
+/// lines bend around smaller elements: along a path directions turn by the integral of J grad(ln h) more (A9 of
+/// docs/algorithm.md). Along the boundary, which is straight for crosses, nothing changes. Sizes that are the same
+/// everywhere change nothing.
 void followSizes(const Patch& patch, Connection& connection);
 
 /// Quads wanted at a boundary vertex, 1 to 4: Patch::cornerQuads, or from the fan's angle where the patch does not say.
