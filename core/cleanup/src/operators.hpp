@@ -60,8 +60,8 @@ class TopologicalCleanup {
     double count = 0.0;  ///< Of its quads and pairs of triangles.
     double least = 0.0;  ///< Shape below which no new element may be.
     double meanShape = 0.0;
-    double stretch = 0.0;
-    double distortion = 0.0;
+    double stretch = 0.0;     ///< Of all its elements together.
+    double distortion = 0.0;  ///< The same and how far their sizes are off.
   };
   [[nodiscard]] Measures measureCavity(std::size_t triangles, double count) const;
   [[nodiscard]] std::vector<EditMesh::Vertex> innerVertices(const SidePattern& pattern,

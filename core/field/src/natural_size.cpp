@@ -239,7 +239,7 @@ Result<IdMap<VertexId, double>> turnedSizes(const Patch& patch, const CrossField
   if (!progress.report(Stage::field, 1.0)) return cancelledError();
   IdMap<VertexId, double> sizes = patch.size;
   const InnerUnknowns inner(patch.surface);
-  if (inner.count == 0) return sizes;
+  if (inner.count == 0 || field.cross.empty()) return sizes;
   const IdMap<VertexId, double> none(sizes.size(), 0.0);
   const auto logs = pulledSystem(patch, field, inner, none, kTurnReach).solve();
   if (!logs) return notComputed(patch);

@@ -49,12 +49,7 @@ Plan planEdge(const TriangleMesh& mesh, const BrepEdge& edge, const SizeField& s
   Plan plan;
   plan.curve = edgeCurve(mesh, edge);
   plan.sizes = sizesOf(size, edge, plan.curve, e);
-  plan.integral.push_back(0.0);
-  for (std::size_t i = 0; i + 1 < plan.sizes.value.size(); ++i) {
-    const double length = plan.sizes.arcLength[i + 1] - plan.sizes.arcLength[i];
-    const double density = 0.5 * (1.0 / plan.sizes.value[i] + 1.0 / plan.sizes.value[i + 1]);
-    plan.integral.push_back(plan.integral.back() + length * density);
-  }
+  plan.integral = plan.sizes.divisions();
   plan.stops = edge.stops;
   plan.chordSize = size.chordSize;
   // Divisions that a face asked for are there for its chords: corners of a coarse polygon become nodes, whatever the

@@ -52,13 +52,6 @@ void appendSamples(EdgeSizes& sizes, const EdgeSizes& bound, std::size_t i, doub
 
 }  // namespace
 
-void EdgeSamples::lower(std::int32_t edge, double s, double size) {
-  EdgeSizes& on = sizes[static_cast<std::size_t>(edge)];
-  const std::size_t after = on.sampleAfter(s);
-  on.value[after] = std::min(on.value[after], size);
-  on.value[after - 1] = std::min(on.value[after - 1], size);
-}
-
 void resample(EdgeSamples& samples, double base, double spacing) {
   samples.base = base;
   samples.sizes.clear();

@@ -17,9 +17,6 @@ struct EdgeSamples {
   /// Per edge, per sample: the size before anything lowered it. Empty: the base size everywhere.
   std::vector<std::vector<double>> highest;
   double base = 0.0;
-
-  /// Lowers the sizes at the samples on both sides of arc length s.
-  void lower(std::int32_t edge, double s, double size);
 };
 
 /// Two points on edges that lie opposite each other across a face.

@@ -121,13 +121,7 @@ std::vector<double> divisionsOf(const EdgeSamples& samples, const std::vector<st
   std::vector<double> divisions;
   divisions.reserve(samples.sizes.size());
   for (std::size_t e = 0; e < samples.sizes.size(); ++e) {
-    const EdgeSizes& sizes = samples.sizes[e];
-    double wanted = 0.0;
-    for (std::size_t i = 0; i + 1 < sizes.value.size(); ++i) {
-      const double density = 0.5 * (1.0 / sizes.value[i] + 1.0 / sizes.value[i + 1]);
-      wanted += density * (sizes.arcLength[i + 1] - sizes.arcLength[i]);
-    }
-    divisions.push_back(std::max(wanted, static_cast<double>(least[e])));
+    divisions.push_back(std::max(samples.sizes[e].divisions().back(), static_cast<double>(least[e])));
   }
   return divisions;
 }

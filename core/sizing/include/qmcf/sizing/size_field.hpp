@@ -55,6 +55,15 @@ struct EdgeSizes {
     const auto above = std::upper_bound(arcLength.begin() + 1, arcLength.end() - 1, s);
     return static_cast<std::size_t>(above - arcLength.begin());
   }
+  /// Per sample: how many lengths there are from the start to it, the integral of ds / h.
+  [[nodiscard]] std::vector<double> divisions() const {
+    std::vector<double> sums{0.0};
+    for (std::size_t i = 0; i + 1 < value.size(); ++i) {
+      const double density = 0.5 * (1.0 / value[i] + 1.0 / value[i + 1]);
+      sums.push_back(sums.back() + (arcLength[i + 1] - arcLength[i]) * density);
+    }
+    return sums;
+  }
 };
 
 /// How many vertices of the mesh get their size, before gradation, from something else than the base size.
@@ -81,7 +90,8 @@ struct SizeField {
   double chordSize = std::numeric_limits<double>::infinity();  ///< The size that would be, were it the same everywhere.
 };
 
-/// The sizes: `size`, or a length such that the elements of the whole field are about `quads`, within 1.7 times the
+/// The sizes: `size`, or a length such that the elements of the whole field are about `quads`, within 1.7 times
+/// (with `curvature` 3 times) the
 /// one for a field that is the same everywhere; not above vertexSize; smaller where a face is curved, down to a tenth
 /// of base, where a feature edge turns (at least divisionsPerTurn divisions in a full turn, also in a small closed
 /// edge), and on short edges; not below a tenth of base, except by
