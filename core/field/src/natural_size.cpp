@@ -13,6 +13,7 @@
 #include <string>
 
 #include "qmcf/base/math.hpp"
+#include "qmcf/spatial/surface_walk.hpp"
 
 namespace qmcf {
 namespace {
@@ -26,8 +27,9 @@ constexpr double kLargestCotangent = 1e3;
 constexpr double kSpreadReach = 4.0;
 /// What the turn of the field does to the sizes fades within about so many elements.
 constexpr double kTurnReach = 8.0;
-/// How far the logarithm of a size goes for the turn of the field, either way.
+/// How far the logarithm of a size goes for the turn of the field, and for what a mesh came out with, either way.
 constexpr double kMostForTurn = 0.3;
+constexpr double kMostForMesh = 0.3;
 
 /// Numbers the vertices of all patches: nodes have theirs, those inside follow.
 class Unknowns {
@@ -71,27 +73,49 @@ std::array<double, 3> anglesIn(const CrossField& field, TriangleId t) {
   return angle;
 }
 
+/// A term of the integral of |grad u|^2 over a triangle, between two of its corners.
+struct StiffnessEntry {
+  std::size_t row = 0;
+  std::size_t column = 0;
+  double value = 0.0;
+};
+
+double twiceAreaOf(const Surface& surface, TriangleId t) { return norm(surface.areaVector(t)); }
+
 /// leastCotangent: 0 gives a matrix with no positive entry beside its diagonal, so that no solution leaves the range of
-/// what it is made of.
-void addTriangle(System& system, const Surface& surface, const CrossField& field, TriangleId t,
-                 const std::array<std::int32_t, 3>& unknown, double leastCotangent) {
+/// what it is made of. All zero for a triangle without an area.
+std::array<StiffnessEntry, 12> stiffness(const Surface& surface, TriangleId t, double leastCotangent) {
   const auto corners = surface.corners(t);
-  const auto at = [&](std::size_t c) -> const Vec3& { return surface.position(corners[c % 3]); };
-  const double twiceArea = norm(cross(at(1) - at(0), at(2) - at(0)));
-  if (!(twiceArea > 0.0)) return;
-  const std::array<double, 3> angle = anglesIn(field, t);
+  const auto at = [&](std::size_t c) -> const Vec3& { return surface.position(corners[c]); };
+  const double twiceArea = twiceAreaOf(surface, t);
+  std::array<StiffnessEntry, 12> entries;
+  if (!(twiceArea > 0.0)) return entries;
   for (std::size_t c = 0; c < 3; ++c) {
     const std::size_t i = (c + 1) % 3;
     const std::size_t j = (c + 2) % 3;
     const double cotangent =
         std::clamp(dot(at(i) - at(c), at(j) - at(c)) / twiceArea, leastCotangent, kLargestCotangent);
     const double weight = 0.5 * cotangent;
-    system.entries.emplace_back(unknown[i], unknown[i], weight);
-    system.entries.emplace_back(unknown[j], unknown[j], weight);
-    system.entries.emplace_back(unknown[i], unknown[j], -weight);
-    system.entries.emplace_back(unknown[j], unknown[i], -weight);
+    entries[4 * c] = {i, i, weight};
+    entries[4 * c + 1] = {j, j, weight};
+    entries[4 * c + 2] = {i, j, -weight};
+    entries[4 * c + 3] = {j, i, -weight};
+  }
+  return entries;
+}
+
+/// leastCotangent: as for stiffness().
+void addTriangle(System& system, const Surface& surface, const CrossField& field, TriangleId t,
+                 const std::array<std::int32_t, 3>& unknown, double leastCotangent) {
+  const double twiceArea = twiceAreaOf(surface, t);
+  if (!(twiceArea > 0.0)) return;
+  for (const StiffnessEntry& entry : stiffness(surface, t, leastCotangent)) {
+    system.entries.emplace_back(unknown[entry.row], unknown[entry.column], entry.value);
+  }
+  const std::array<double, 3> angle = anglesIn(field, t);
+  for (std::size_t c = 0; c < 3; ++c) {
     // The integral of the cross product of two linear functions' gradients needs no coordinates.
-    system.side[unknown[c]] += 0.5 * (angle[i] - angle[j]);
+    system.side[unknown[c]] += 0.5 * (angle[(c + 1) % 3] - angle[(c + 2) % 3]);
     system.area[unknown[c]] += twiceArea / 6.0;
   }
 }
@@ -148,6 +172,46 @@ PulledSystem pulledSystem(const Patch& patch, const CrossField& field, const Inn
     const double pull = all.area[v.value] / (length * length);
     entries.emplace_back(i, i, pull);
     system.side[i] += pull * value[v] + all.side[v.value];
+  }
+  system.matrix.resize(inner.count, inner.count);
+  system.matrix.setFromTriplets(entries.begin(), entries.end());
+  return system;
+}
+
+/// The system behind sizesOfMesh().
+PulledSystem meshSystem(const Patch& patch, const FaceMesh& mesh, const InnerUnknowns& inner) {
+  const Surface& surface = patch.surface;
+  PulledSystem system;
+  system.side = Eigen::VectorXd::Zero(inner.count);
+  std::vector<Eigen::Triplet<double>> entries;
+  const auto add = [&](VertexId row, VertexId column, double value) {
+    if (inner.of[row] != kNone && inner.of[column] != kNone)
+      entries.emplace_back(inner.of[row], inner.of[column], value);
+  };
+  for (const TriangleId t : surface.triangles()) {
+    const auto corners = surface.corners(t);
+    const double size = (patch.size[corners[0]] + patch.size[corners[1]] + patch.size[corners[2]]) / 3.0;
+    for (const StiffnessEntry& entry : stiffness(surface, t, 0.0)) {
+      add(corners[entry.row], corners[entry.column], size * size * entry.value);
+    }
+  }
+  const std::vector<SizedEdge> edges = sizedEdges(patch, mesh);
+  double mean = 0.0;
+  if (inner.count == static_cast<std::int32_t>(surface.vertexCount())) {
+    for (const SizedEdge& edge : edges) mean += edge.log / static_cast<double>(edges.size());
+  }
+  for (const SizedEdge& edge : edges) {
+    // Half an element for each edge, half of that for each end.
+    const double weight = 0.25 * edge.size * edge.size;
+    for (const std::int32_t end : edge.ends) {
+      const SurfacePoint& point = mesh.locations[static_cast<std::size_t>(end)];
+      const auto corners = surface.corners(point.triangle);
+      for (std::size_t i = 0; i < 3; ++i) {
+        const double share = weight * point.barycentric[i];
+        for (std::size_t j = 0; j < 3; ++j) add(corners[i], corners[j], share * point.barycentric[j]);
+        if (inner.of[corners[i]] != kNone) system.side[inner.of[corners[i]]] += share * (edge.log - mean);
+      }
+    }
   }
   system.matrix.resize(inner.count, inner.count);
   system.matrix.setFromTriplets(entries.begin(), entries.end());
@@ -245,6 +309,31 @@ Result<IdMap<VertexId, double>> turnedSizes(const Patch& patch, const CrossField
   if (!logs) return notComputed(patch);
   for (const VertexId v : patch.surface.vertices()) {
     if (inner.of[v] != kNone) sizes[v] *= math::exp(math::bent((*logs)[inner.of[v]], kMostForTurn));
+  }
+  return sizes;
+}
+
+std::vector<SizedEdge> sizedEdges(const Patch& patch, const FaceMesh& mesh) {
+  std::vector<SizedEdge> edges;
+  for (const std::array<std::int32_t, 2>& ends : edgesOf(mesh)) {
+    const auto a = static_cast<std::size_t>(ends[0]);
+    const auto b = static_cast<std::size_t>(ends[1]);
+    const double size = 0.5 * (interpolate(patch.surface, patch.size, mesh.locations[a]) +
+                               interpolate(patch.surface, patch.size, mesh.locations[b]));
+    edges.push_back({ends, size, math::log(distance(mesh.positions[a], mesh.positions[b]) / size)});
+  }
+  return edges;
+}
+
+Result<IdMap<VertexId, double>> sizesOfMesh(const Patch& patch, const FaceMesh& mesh, Progress& progress) {
+  if (!progress.report(Stage::field, 1.0)) return cancelledError();
+  IdMap<VertexId, double> sizes = patch.size;
+  const InnerUnknowns inner(patch.surface);
+  if (inner.count == 0 || mesh.elements.empty()) return sizes;
+  const auto logs = meshSystem(patch, mesh, inner).solve();
+  if (!logs) return notComputed(patch);
+  for (const VertexId v : patch.surface.vertices()) {
+    if (inner.of[v] != kNone) sizes[v] *= math::exp(math::bent((*logs)[inner.of[v]], kMostForMesh));
   }
   return sizes;
 }

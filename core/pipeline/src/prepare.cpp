@@ -61,9 +61,15 @@ void useSizes(SizingOptions& sizing, const PreparedSizes& sizes) {
   sizing.chordSize = sizes.chordSize;
 }
 
+/// Apart from the sizes.
 bool isSamePatch(const Patch& a, const Patch& b) {
-  return a.surface == b.surface && a.normal == b.normal && a.size == b.size && a.cornerQuads == b.cornerQuads &&
-         a.edge == b.edge;
+  return a.surface == b.surface && a.normal == b.normal && a.cornerQuads == b.cornerQuads && a.edge == b.edge;
+}
+
+/// The sizes that a face was prepared with.
+const IdMap<VertexId, double>& sizesAtFirst(const PreparedFaces& prepared, std::size_t face) {
+  const IdMap<VertexId, double>& before = prepared.sizesBefore[face];
+  return before.empty() ? prepared.patches[face].size : before;
 }
 
 /// The stages up to the cross fields, as often as the faces ask for smaller elements.
@@ -87,6 +93,7 @@ class Preparation {
     result_.given.resize(brep.faces.size(), Given::nothing);
     result_.wantedElements.resize(brep.faces.size(), 0.0);
     result_.settled.resize(brep.faces.size(), 0);
+    result_.sizesBefore.resize(brep.faces.size());
     give(std::move(result_.given));
   }
 
@@ -181,7 +188,9 @@ class Preparation {
     missed_.insert(missed_.end(), background.missed.begin(), background.missed.end());
     changed_[f] = true;
     done_[f] = background.tooCoarse.empty();
-    if (done_[f]) result_.patches[f] = std::move(background.patch);
+    if (!done_[f]) return;
+    result_.patches[f] = std::move(background.patch);
+    result_.sizesBefore[f] = {};
   }
 
   std::optional<Error> triangulate() {
@@ -330,7 +339,14 @@ Result<PreparedFaces> prepareGiven(const TriangleMesh& mesh, const Brep& brep, c
 void keepUnchanged(const PreparedFaces& before, PreparedFaces& now) {
   std::erase_if(now.changed, [&](std::int32_t face) {
     const auto f = static_cast<std::size_t>(face);
-    return before.given[f] == now.given[f] && isSamePatch(before.patches[f], now.patches[f]);
+    if (before.given[f] != now.given[f] || !isSamePatch(before.patches[f], now.patches[f]) ||
+        sizesAtFirst(before, f) != sizesAtFirst(now, f)) {
+      return false;
+    }
+    now.patches[f].size = before.patches[f].size;
+    now.sizesBefore[f] = before.sizesBefore[f];
+    now.settled[f] = before.settled[f];
+    return true;
   });
 }
 

@@ -35,6 +35,8 @@ struct PreparedFaces {
   std::vector<Given> given;                    ///< Per face.
   std::vector<double> wantedElements;          ///< Per face, where sizes are settled: how many there would be if not.
   std::vector<std::uint8_t> settled;           ///< Per face: 1 if sizes changed noticeably when they were.
+  /// Per face: the sizes before they followed a mesh (meshSettled()); empty where they didn't.
+  std::vector<IdMap<VertexId, double>> sizesBefore;
 };
 
 /// What a preparation was made with.
@@ -72,7 +74,7 @@ Result<PreparedFaces> prepareGiven(const TriangleMesh& mesh, const Brep& brep, c
                                    Progress& progress);
 
 /// Takes the faces out of now.changed that are what they were in `before`, apart from the numbers of the shared nodes:
-/// their meshes would be, too.
+/// their meshes would be, too, and the sizes that these led to.
 void keepUnchanged(const PreparedFaces& before, PreparedFaces& now);
 
 /// The size field with these sizes. Errors: cancelled.

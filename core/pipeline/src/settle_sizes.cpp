@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "qmcf/base/math.hpp"
 #include "qmcf/field/natural_size.hpp"
 #include "qmcf/sizing/inner_sizes.hpp"
 
@@ -12,6 +13,8 @@ namespace {
 
 /// A change of the size by less than this is not noticed.
 constexpr double kNoticed = 0.05;
+/// How far the logarithm of a size on an edge goes for the lengths that the edge was divided into, either way.
+constexpr double kMostForDivision = 0.3;
 
 /// Lowers sizes to the cones that rise from the field's limits in the patch.
 void lowerToLimits(const Patch& patch, const SizeField& field, IdMap<VertexId, double>& sizes) {
@@ -36,6 +39,25 @@ void take(PreparedFaces& prepared, std::size_t face, IdMap<VertexId, double> siz
   }
 }
 
+/// The sizes, with those on the boundary as its edges came out when they were divided.
+IdMap<VertexId, double> dividedSizes(const Patch& patch) {
+  const Surface& surface = patch.surface;
+  IdMap<VertexId, double> log(surface.vertexCount(), 0.0);
+  for (const HalfedgeId h : IdRange<HalfedgeId>(surface.halfedgeCount())) {
+    if (!surface.isBoundary(h)) continue;
+    const VertexId a = surface.origin(h);
+    const VertexId b = surface.target(h);
+    const double off = math::log(2.0 * surface.length(h) / (patch.size[a] + patch.size[b]));
+    // The mean of both edges at a vertex.
+    for (const VertexId end : {a, b}) log[end] += 0.5 * off;
+  }
+  IdMap<VertexId, double> sizes = patch.size;
+  for (const VertexId v : surface.vertices()) {
+    if (surface.isBoundary(v)) sizes[v] *= math::exp(math::bent(log[v], kMostForDivision));
+  }
+  return sizes;
+}
+
 }  // namespace
 
 std::optional<Error> spreadInside(PreparedFaces& prepared, std::size_t face, const MeshOptions& options,
@@ -43,6 +65,7 @@ std::optional<Error> spreadInside(PreparedFaces& prepared, std::size_t face, con
   prepared.wantedElements[face] = expectedElements(prepared.patches[face]);
   prepared.settled[face] = 0;
   if (prepared.given[face] != Given::nothing) return std::nullopt;
+  take(prepared, face, dividedSizes(prepared.patches[face]), options);
   auto sizes = spreadSizes(prepared.patches[face], progress);
   if (!sizes) return sizes.error();
   take(prepared, face, std::move(sizes).value(), options);
@@ -53,6 +76,14 @@ std::optional<Error> turnInside(PreparedFaces& prepared, std::size_t face, const
                                 Progress& progress) {
   if (prepared.given[face] != Given::nothing) return std::nullopt;
   auto sizes = turnedSizes(prepared.patches[face], prepared.fields[face], progress);
+  if (!sizes) return sizes.error();
+  take(prepared, face, std::move(sizes).value(), options);
+  return std::nullopt;
+}
+
+std::optional<Error> followMesh(PreparedFaces& prepared, std::size_t face, const FaceMesh& mesh,
+                                const MeshOptions& options, Progress& progress) {
+  auto sizes = sizesOfMesh(prepared.patches[face], mesh, progress);
   if (!sizes) return sizes.error();
   take(prepared, face, std::move(sizes).value(), options);
   return std::nullopt;

@@ -3,6 +3,8 @@
 #include <string>
 #include <utility>
 
+#include "settled_face.hpp"
+
 namespace qmcf {
 namespace {
 
@@ -21,28 +23,34 @@ MeshedFace omittedFace(std::int32_t face, std::int32_t below) {
   return omitted;
 }
 
+/// Meshes what changed. settles: sizes settle with the meshes.
+std::optional<Error> meshFaces(const Part& part, Trial& trial, bool settles, Progress& progress) {
+  for (const std::int32_t face : trial.prepared.changed) {
+    const auto f = static_cast<std::size_t>(face);
+    if (trial.covered.below[f] != kNone) trial.faces[f] = omittedFace(face, trial.covered.below[f]);
+  }
+  const auto mesh = [&](std::int32_t face, Progress& own) -> std::optional<Error> {
+    auto meshed = settles ? meshSettled(part, trial.prepared, face, own) : meshFace(part, trial.prepared, face, own);
+    if (!meshed) return meshed.error();
+    trial.faces[static_cast<std::size_t>(face)] = std::move(meshed).value();
+    return std::nullopt;
+  };
+  return forEachFace(part, trial, trial.prepared.changed, progress, mesh);
+}
+
 }  // namespace
 
 Result<Trial> makeTrial(const Part& part, const MeshOptions& options, PreparedFaces prepared, Progress& progress) {
   // Elements that are cut up have a vertex of their own each, so that those of two layers always are told apart.
   CoveredFaces covered = options.allQuad ? noneCovered(part.brep) : coveredFaces(part, kTellApart * prepared.size.base);
   Trial trial{std::move(prepared), std::move(covered), std::vector<MeshedFace>(part.brep.faces.size())};
-  if (const auto error = meshChanged(part, trial, progress)) return *error;
+  const bool settles = settlesWithMeshes(part, trial.prepared);
+  if (const auto error = meshFaces(part, trial, settles, progress)) return *error;
   return trial;
 }
 
 std::optional<Error> meshChanged(const Part& part, Trial& trial, Progress& progress) {
-  for (const std::int32_t face : trial.prepared.changed) {
-    const auto f = static_cast<std::size_t>(face);
-    if (trial.covered.below[f] != kNone) trial.faces[f] = omittedFace(face, trial.covered.below[f]);
-  }
-  const auto mesh = [&](std::int32_t face, Progress& own) -> std::optional<Error> {
-    auto meshed = meshFace(part, trial.prepared, face, own);
-    if (!meshed) return meshed.error();
-    trial.faces[static_cast<std::size_t>(face)] = std::move(meshed).value();
-    return std::nullopt;
-  };
-  return forEachFace(part, trial, trial.prepared.changed, progress, mesh);
+  return meshFaces(part, trial, false, progress);
 }
 
 }  // namespace qmcf

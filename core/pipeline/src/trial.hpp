@@ -24,11 +24,12 @@ struct Trial {
   std::vector<MeshedFace> faces;  ///< Per face of the B-rep.
 };
 
-/// The meshes of faces that were prepared with `options`: the part's, or these with another number of elements. Errors:
-/// cancelled.
+/// The meshes of faces that were prepared with `options`: the part's, or these with another number of elements. Where
+/// that is worth it, sizes settle with the meshes (settlesWithMeshes()). Errors: cancelled, and those of meshSettled().
 Result<Trial> makeTrial(const Part& part, const MeshOptions& options, PreparedFaces prepared, Progress& progress);
 
-/// Meshes the faces that the last preparation made anew. Errors: cancelled.
+/// Meshes the faces that the last preparation made anew, once each: where a mesh was not valid, better sizes are not
+/// what is missing. Errors: cancelled.
 std::optional<Error> meshChanged(const Part& part, Trial& trial, Progress& progress);
 
 /// Calls work(face, progress) for each of the faces that are not omitted, several at a time.

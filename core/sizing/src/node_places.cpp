@@ -11,9 +11,10 @@ namespace qmcf {
 namespace {
 
 // Places are measured in divisions: the integral of ds / h, scaled such that the whole edge is `count`.
-constexpr double kReach = 0.5;     // How far a node may go from its equal part.
-constexpr double kShortest = 0.3;  // Of a division.
-constexpr int kSteps = 4;          // Places tried on each side of the equal part.
+constexpr double kReach = 0.5;      // How far a node may go from its equal part,
+constexpr double kStopReach = 0.7;  // and to a stop.
+constexpr double kShortest = 0.3;   // Of a division.
+constexpr int kSteps = 4;           // Places tried on each side of the equal part.
 /// A point of the polygon is tried when it turns by more than this; the sharpest ones of a part where there are many.
 constexpr double kLeastTurn = math::kPi / 18.0;
 constexpr std::size_t kMostCorners = 8;
@@ -89,6 +90,9 @@ class Placement {
     double at;
     double s;
     double turn;
+    bool isStop;
+
+    [[nodiscard]] double reach() const { return isStop ? kStopReach : kReach; }
   };
 
   [[nodiscard]] double placeOf(double s) const {
@@ -102,10 +106,9 @@ class Placement {
       while (stop < placed_.stops.size() && static_cast<std::size_t>(placed_.stops[stop]) < i) ++stop;
       const bool isStop = stop < placed_.stops.size() && static_cast<std::size_t>(placed_.stops[stop]) == i;
       if (isStop) stops_.push_back(s);
-      // A stop comes before all others.
-      const double turn = isStop ? 2.0 * math::kPi : turnAt(placed_.curve, i);
-      isStraight_ = isStraight_ && turn < kStraightTurn;
-      if (turn >= kLeastTurn) corners_.push_back({placeOf(s), s, turn});
+      const double turn = turnAt(placed_.curve, i);
+      isStraight_ = isStraight_ && turn < kStraightTurn && !isStop;
+      if (turn >= kLeastTurn || isStop) corners_.push_back({placeOf(s), s, turn, isStop});
     }
   }
 
@@ -116,13 +119,16 @@ class Placement {
       nodes_[k].push_back({at, interpolate(placed_.integral, placed_.sizes.arcLength, at / scale_), kNever, 0});
     };
     add(middle);
-    while (firstCorner_ < corners_.size() && corners_[firstCorner_].at <= middle - kReach) ++firstCorner_;
+    while (firstCorner_ < corners_.size() && corners_[firstCorner_].at <= middle - kStopReach) ++firstCorner_;
     std::vector<Corner> near;
-    for (std::size_t i = firstCorner_; i < corners_.size() && corners_[i].at < middle + kReach; ++i) {
-      near.push_back(corners_[i]);
+    for (std::size_t i = firstCorner_; i < corners_.size() && corners_[i].at < middle + kStopReach; ++i) {
+      if (std::fabs(corners_[i].at - middle) < corners_[i].reach()) near.push_back(corners_[i]);
     }
-    std::sort(near.begin(), near.end(),
-              [](const Corner& a, const Corner& b) { return a.turn != b.turn ? a.turn > b.turn : a.s < b.s; });
+    // Stops come before all others.
+    std::sort(near.begin(), near.end(), [](const Corner& a, const Corner& b) {
+      if (a.isStop != b.isStop) return a.isStop;
+      return a.turn != b.turn ? a.turn > b.turn : a.s < b.s;
+    });
     if (near.size() > kMostCorners) near.resize(kMostCorners);
     for (const Corner& corner : near) nodes_[k].push_back({corner.at, corner.s, kNever, 0});
     if (isStraight_) return;  // Nothing to move for.

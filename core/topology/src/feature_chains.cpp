@@ -16,7 +16,7 @@ constexpr std::size_t kLongestExtension = 64;
 /// Dihedral angles down to this part of the angle that makes an edge sharp may continue a chain.
 constexpr double kWeakAngle = 0.6;
 /// A dangling chain shorter than this part of its body's diagonal is noise; in a scattered body, the larger part.
-constexpr double kShortChain = 0.012;
+constexpr double kShortChain = 0.003;
 constexpr double kShortScatteredChain = 0.1;
 /// A body is scattered when its sharp edges have at least this many loose ends, and one per this many edges.
 constexpr std::int64_t kManyLooseEnds = 8;

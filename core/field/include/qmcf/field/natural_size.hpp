@@ -1,10 +1,13 @@
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <vector>
 
 #include "qmcf/base/progress.hpp"
 #include "qmcf/base/result.hpp"
 #include "qmcf/field/cross_field.hpp"
+#include "qmcf/mesh/face_mesh.hpp"
 #include "qmcf/mesh/patch.hpp"
 
 namespace qmcf {
@@ -29,6 +32,22 @@ Result<IdMap<VertexId, double>> spreadSizes(const Patch& patch, Progress& progre
 /// way; r is eight times the size. A patch without a boundary has sizes of its own as well. E7 of docs/algorithm.md.
 /// field: an empty one does not turn. Returns h per vertex. Errors: cancelled, internal (factorisation failed).
 Result<IdMap<VertexId, double>> turnedSizes(const Patch& patch, const CrossField& field, Progress& progress);
+
+/// An edge of a mesh and the size wanted there.
+struct SizedEdge {
+  std::array<std::int32_t, 2> ends{};
+  double size = 0.0;  ///< The mean of its ends'.
+  double log = 0.0;   ///< Of its length in units of that.
+};
+
+/// Each edge of a mesh of the patch once.
+std::vector<SizedEdge> sizedEdges(const Patch& patch, const FaceMesh& mesh);
+
+/// The patch's sizes as a mesh of it came out: times exp(s), the s that is 0 on the boundary and minimises
+/// the sum of (s - log)^2 size^2 / 2 over the mesh's edges (sizedEdges()), taken at their ends, and the integral of
+/// size^2 |grad(s)|^2, bent to stay within 0.3 either way. Of a patch without a boundary only what varies counts: log
+/// less its mean. E7 of docs/algorithm.md. Returns h per vertex. Errors: cancelled, internal (factorisation failed).
+Result<IdMap<VertexId, double>> sizesOfMesh(const Patch& patch, const FaceMesh& mesh, Progress& progress);
 
 /// How many rows of elements are to be expected to end inside the patches if these have the sizes h = patch.size *
 /// exp(log): the integral of |grad(log h) + rotated(grad(angle))| / patch.size; not / h, or larger elements where most

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -17,5 +18,8 @@ struct FaceMesh {
   std::vector<std::int32_t> patchVertex;  ///< Boundary vertex of the patch, which is fixed; kNone inside.
   std::vector<Element> elements;
 };
+
+/// Each edge of the mesh once: its ends, the lower one first, in ascending order.
+std::vector<std::array<std::int32_t, 2>> edgesOf(const FaceMesh& mesh);
 
 }  // namespace qmcf
