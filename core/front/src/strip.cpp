@@ -22,7 +22,7 @@ constexpr double kReach = 2.2;
 // The face turns by at most 60 degrees between the ends of a chord.
 constexpr double kLeastNormal = 0.5;
 // No element has a smaller shape.
-constexpr double kLeastShape = 0.12;
+constexpr double kLeastShape = 0.1;
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
@@ -198,7 +198,6 @@ class PolygonCutter {
   /// Takes an element if it is the best so far; rest: the cost of what is beyond its other sides.
   void take(Cut& best, double rest, const Element& places) const {
     const bool isTriangle = cornerCount(places) == 3;
-    if (isTriangle) rest += kTriangleCost;
     if (!(rest < best.cost)) return;
     const Element element = atVertices(places);
     for (std::size_t c = 0; c < cornerCount(element); ++c) {
@@ -206,10 +205,23 @@ class PolygonCutter {
         if (element[c] == element[d]) return;
       }
     }
-    const double shape = elementShape(outline_.mesh, element);
-    const double cost = rest + (1.0 - shape) * (1.0 - shape);
+    const double shape = elementShape(outline_.mesh, element, filledCorners(places));
+    const double cost = rest + shapeCost(shape, isTriangle);
     if (shape < kLeastShape || !(cost < best.cost)) return;
     best = {cost, places[1], isTriangle ? kNone : places[2]};
+  }
+
+  /// Per corner, whether the element is alone there: its neighbours in the polygon are corners of it, too.
+  [[nodiscard]] std::array<bool, 4> filledCorners(const Element& places) const {
+    std::array<bool, 4> fills{};
+    const std::size_t corners = cornerCount(places);
+    const auto isNext = [&](std::int32_t place, std::int32_t next) {
+      return at(place + 1) % polygon_.size() == at(next);
+    };
+    for (std::size_t c = 0; c < corners; ++c) {
+      fills[c] = isNext(places[c], places[(c + 1) % corners]) && isNext(places[(c + corners - 1) % corners], places[c]);
+    }
+    return fills;
   }
 
   [[nodiscard]] Element atVertices(Element places) const {

@@ -1,6 +1,9 @@
 #include "qmcf/mesh/element_shape.hpp"
 
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
 
 namespace qmcf {
 namespace {
@@ -14,6 +17,16 @@ constexpr double kFolded = 0.2;
 constexpr double kFlat = 1e-9;
 /// What is better than asked for by this factor, in squares, is so whatever the round-off.
 constexpr double kMargin = 1.01;
+
+/// What makes an element costly, by the smallest sine at its corners. Triangles cost as much as four poor
+/// quadrilaterals, but less than one with a corner that no solver likes.
+constexpr double kPoor = 0.4;
+constexpr double kVeryPoor = 0.12;
+constexpr double kPoorCost = 1.0;
+constexpr double kVeryPoorCost = 3.0;
+constexpr double kTriangleCost = 4.0;
+/// A quadrilateral with a sharper corner than this sine is of no use, even if the outline is to blame.
+constexpr double kUsable = 0.1;
 
 /// Whether a vector leans less than kLeaning from a unit normal, by a margin; without a square root, since nearly all
 /// do.
@@ -129,7 +142,7 @@ bool isWellShapedAround(const EditMesh& mesh, VertexId v, double least) {
   return true;
 }
 
-double elementShape(const FaceMesh& mesh, const Element& element) {
+double elementShape(const FaceMesh& mesh, const Element& element, const std::array<bool, 4>& fills) {
   const std::size_t n = cornerCount(element);
   Vec3 sum;
   for (std::size_t c = 0; c < n; ++c) sum += mesh.normals[static_cast<std::size_t>(element[c])];
@@ -143,16 +156,37 @@ double elementShape(const FaceMesh& mesh, const Element& element) {
     const Vec3 back = corner(c + n - 1) - corner(c);
     const double lengths = norm(ahead) * norm(back);
     if (!(lengths > 0.0)) return -1.0;
-    worst = std::min(worst, dot(cross(ahead, back), normal) / lengths);
+    const double sine = dot(cross(ahead, back), normal) / lengths;
+    if (fills[c] && sine > 0.0 && dot(ahead, back) > 0.0) {
+      if (n == 4 && sine < kUsable) return -1.0;
+      continue;
+    }
+    worst = std::min(worst, sine);
   }
   return worst;
 }
 
+double shapeCost(double shape, bool isTriangle) {
+  const double square = (1.0 - shape) * (1.0 - shape);
+  double cost = square * square;
+  if (shape < kPoor) cost += kPoorCost;
+  if (shape < kVeryPoor) cost += kVeryPoorCost;
+  return isTriangle ? cost + kTriangleCost : cost;
+}
+
 double shapeCost(const FaceMesh& mesh) {
+  std::vector<std::int32_t> elements(mesh.positions.size(), 0);
+  for (const Element& element : mesh.elements) {
+    for (std::size_t c = 0; c < cornerCount(element); ++c) ++elements[static_cast<std::size_t>(element[c])];
+  }
   double cost = 0.0;
   for (const Element& element : mesh.elements) {
-    const double shape = elementShape(mesh, element);
-    cost += (1.0 - shape) * (1.0 - shape) + (cornerCount(element) == 3 ? kTriangleCost : 0.0);
+    std::array<bool, 4> fills{};
+    for (std::size_t c = 0; c < cornerCount(element); ++c) {
+      const auto v = static_cast<std::size_t>(element[c]);
+      fills[c] = mesh.patchVertex[v] != kNone && elements[v] == 1;
+    }
+    cost += shapeCost(elementShape(mesh, element, fills), cornerCount(element) == 3);
   }
   return cost;
 }

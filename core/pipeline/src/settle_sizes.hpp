@@ -13,7 +13,8 @@ namespace qmcf {
 
 /// Makes the sizes of the patch of a face on its edges what these were divided into, and lets them spread inwards from
 /// there (spreadSizes(), E7 of docs/algorithm.md), not above the field's limits, nor above what the options ask for
-/// inside faces. The part's own triangles stay as they are. What the sizes wanted until now would take goes into prepared.wantedElements. Errors: those of spreadSizes().
+/// inside faces. The part's own triangles stay as they are. What the sizes wanted until now would take goes into
+/// prepared.wantedElements. Errors: those of spreadSizes().
 std::optional<Error> spreadInside(PreparedFaces& prepared, std::size_t face, const MeshOptions& options,
                                   Progress& progress);
 

@@ -6,9 +6,11 @@
 #include <cmath>
 #include <cstddef>
 #include <iterator>
+#include <optional>
 #include <utility>
 
 #include "face_uses.hpp"
+#include "narrow_faces.hpp"
 #include "node_places.hpp"
 #include "parity.hpp"
 #include "qmcf/base/math.hpp"
@@ -117,10 +119,14 @@ Step stepOf(const Plan& plan) {
   return plan.count > plan.least && down < up ? Step{-1, down} : Step{1, up};
 }
 
-/// Makes the number of divisions around each face even wherever that is possible; returns the number of odd faces.
-std::int64_t makeEven(std::vector<Plan>& plans, const Brep& brep) {
+/// Makes the number of divisions around each face even wherever that is possible, and odd where that suits the face
+/// better.
+void makeEven(std::vector<Plan>& plans, const Brep& brep) {
   const auto uses = oddUses(brep);
-  std::vector<bool> odd(brep.faces.size(), false);
+  std::vector<double> wanted;
+  for (const Plan& plan : plans) wanted.push_back(plan.wanted());
+  std::vector<bool> odd;
+  for (const BrepFace& face : brep.faces) odd.push_back(suitsOdd(brep, face, wanted));
   std::vector<std::size_t> changing;
   std::vector<ParityChange> changes;
   for (std::size_t e = 0; e < plans.size(); ++e) {
@@ -131,16 +137,15 @@ std::int64_t makeEven(std::vector<Plan>& plans, const Brep& brep) {
     changing.push_back(e);
     changes.push_back({uses[e], stepOf(plans[e]).cost});
   }
-  const ParitySolution solution = solveParity(std::move(odd), changes);
+  const std::vector<bool> apply = solveParity(std::move(odd), changes).apply;
   for (std::size_t c = 0; c < changing.size(); ++c) {
     Plan& plan = plans[changing[c]];
-    if (solution.apply[c]) plan.count += stepOf(plan).by;
+    if (apply[c]) plan.count += stepOf(plan).by;
   }
-  return solution.oddFaces;
 }
 
 /// Faces with an odd number of divisions around them.
-[[maybe_unused]] std::int64_t oddFacesOf(const std::vector<Plan>& plans, const Brep& brep) {
+std::int64_t oddFacesOf(const std::vector<Plan>& plans, const Brep& brep) {
   return std::count_if(brep.faces.begin(), brep.faces.end(), [&](const BrepFace& face) {
     std::int32_t sum = 0;
     for (const BrepLoop& loop : face.loops) {
@@ -177,9 +182,88 @@ void balance(std::vector<Plan>& plans, const TriangleMesh& mesh, const Brep& bre
   for (std::size_t e = 0; e < plans.size(); ++e) plans[e].count = counts[e].count;
 }
 
-void placeNodes(DividedEdges& divided, const Plan& plan, const BrepEdge& edge) {
+/// One side of a narrow face, from one end to the other, as its edges lie on it.
+struct Side {
+  struct Piece {
+    std::size_t edge = 0;
+    bool reversed = false;
+    double start = 0.0;  ///< Arc length along the side.
+    double length = 0.0;
+  };
+  std::vector<Piece> pieces;
+  double length = 0.0;
+
+  Side(const std::vector<Coedge>& coedges, bool backwards, const std::vector<Plan>& plans) {
+    for (std::size_t i = 0; i < coedges.size(); ++i) {
+      const Coedge& coedge = coedges[backwards ? coedges.size() - 1 - i : i];
+      const auto e = static_cast<std::size_t>(coedge.edge);
+      pieces.push_back({e, coedge.reversed != backwards, length, plans[e].curve.length()});
+      length += pieces.back().length;
+    }
+  }
+
+  /// From a share of the side's length to the edge's own arc length; outside of the edge: nothing.
+  [[nodiscard]] std::optional<double> onPiece(const Piece& piece, double share) const {
+    const double s = share * length - piece.start;
+    if (!(s > 0.0) || !(s < piece.length)) return std::nullopt;
+    return piece.reversed ? piece.length - s : s;
+  }
+
+  [[nodiscard]] double shareOf(const Piece& piece, double arcLength) const {
+    return (piece.start + (piece.reversed ? piece.length - arcLength : arcLength)) / length;
+  }
+};
+
+using Places = std::vector<std::vector<double>>;
+
+/// Places the nodes of a side anew, where it may be across from these shares of its length.
+void seek(const Side& side, const std::vector<double>& shares, std::vector<Plan>& plans, Places& places) {
+  for (const Side::Piece& piece : side.pieces) {
+    Plan& plan = plans[piece.edge];
+    if (plan.asGiven || plan.count < 2) continue;
+    std::vector<double> sought;
+    for (const double share : shares) {
+      if (const auto s = side.onPiece(piece, share)) sought.push_back(*s);
+    }
+    if (sought.empty()) continue;
+    plan.sought.insert(plan.sought.end(), sought.begin(), sought.end());
+    std::sort(plan.sought.begin(), plan.sought.end());
+    places[piece.edge] = placeNodesOnCurve(plan, plan.count).arcLength;
+  }
+}
+
+/// In a face of one row the nodes of one side lie across from those of the other.
+void alignSides(std::vector<Plan>& plans, const Brep& brep, Places& places) {
+  std::vector<double> wanted;
+  for (const Plan& plan : plans) wanted.push_back(plan.wanted());
+  for (const BrepFace& face : brep.faces) {
+    if (rowsAcross(brep, face, wanted) >= kOneRow) continue;
+    std::optional<RowSides> sides = taperedSides(face);
+    if (!sides) sides = fourSides(brep, withEnds(face));
+    if (!sides) continue;
+    const Side one(sides->one, false, plans);
+    const Side other(sides->other, true, plans);
+    // The side of more pieces, each with its ends where they are, leads.
+    const bool isOneFirst = one.pieces.size() >= other.pieces.size();
+    const Side& leader = isOneFirst ? one : other;
+    const Side& follower = isOneFirst ? other : one;
+    std::vector<double> ends;
+    for (const Side::Piece& piece : follower.pieces) {
+      if (piece.start > 0.0) ends.push_back(piece.start / follower.length);
+    }
+    seek(leader, ends, plans, places);
+    std::vector<double> nodes;
+    for (const Side::Piece& piece : leader.pieces) {
+      for (const double s : places[piece.edge]) nodes.push_back(leader.shareOf(piece, s));
+    }
+    std::sort(nodes.begin(), nodes.end());
+    seek(follower, nodes, plans, places);
+  }
+}
+
+void placeNodes(DividedEdges& divided, const Plan& plan, const BrepEdge& edge, std::vector<double> places) {
   EdgeDivision division;
-  division.arcLength = plan.asGiven ? plan.curve.arcLength : placeNodesOnCurve(plan, plan.count).arcLength;
+  division.arcLength = std::move(places);
   for (std::size_t i = 0; i < division.arcLength.size(); ++i) {
     const double s = division.arcLength[i];
     const double h = interpolate(plan.sizes.arcLength, plan.sizes.value, s);
@@ -212,7 +296,8 @@ DividedEdges divideEdges(const TriangleMesh& mesh, const Brep& brep, const SizeF
   separateParallelEdges(plans, brep);
 
   DividedEdges divided;
-  divided.oddFaces = makeEven(plans, brep);
+  makeEven(plans, brep);
+  divided.oddFaces = oddFacesOf(plans, brep);
   balance(plans, mesh, brep);
   fillSmallLoops(plans, brep);
   assert(oddFacesOf(plans, brep) == divided.oddFaces);
@@ -220,7 +305,14 @@ DividedEdges divideEdges(const TriangleMesh& mesh, const Brep& brep, const SizeF
     divided.nodes.push_back(mesh.positions[static_cast<std::size_t>(vertex.point)]);
     divided.nodeSize.push_back(0.0);
   }
-  for (std::size_t e = 0; e < brep.edges.size(); ++e) placeNodes(divided, plans[e], brep.edges[e]);
+  Places places;
+  for (const Plan& plan : plans) {
+    places.push_back(plan.asGiven ? plan.curve.arcLength : placeNodesOnCurve(plan, plan.count).arcLength);
+  }
+  alignSides(plans, brep, places);
+  for (std::size_t e = 0; e < brep.edges.size(); ++e) {
+    placeNodes(divided, plans[e], brep.edges[e], std::move(places[e]));
+  }
   for (double& h : divided.nodeSize) {
     if (!(h > 0.0)) h = size.base;
   }

@@ -110,6 +110,14 @@ class Placement {
       isStraight_ = isStraight_ && turn < kStraightTurn && !isStop;
       if (turn >= kLeastTurn || isStop) corners_.push_back({placeOf(s), s, turn, isStop});
     }
+    if (placed_.sought.empty()) return;
+    isStraight_ = false;
+    for (const double s : placed_.sought) {
+      stops_.push_back(s);
+      corners_.push_back({placeOf(s), s, 0.0, true});
+    }
+    std::sort(stops_.begin(), stops_.end());
+    std::sort(corners_.begin(), corners_.end(), [](const Corner& a, const Corner& b) { return a.s < b.s; });
   }
 
   /// The equal part first: where nothing speaks for another place, the first of the cheapest is taken.

@@ -13,6 +13,7 @@ struct PlacedCurve {
   EdgeCurve curve;
   EdgeSizes sizes;
   std::vector<double> integral;     ///< Per sample of sizes: the integral of ds / h from the start.
+  std::vector<double> sought;       ///< Arc lengths where nodes are wanted as they are at stops; ascending.
   std::vector<std::int32_t> stops;  ///< Points of the curve that should be nodes, ascending.
   double chordSize = 0.0;           ///< As in SizeField.
 

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "face_uses.hpp"
+#include "narrow_faces.hpp"
 #include "qmcf/base/math.hpp"
 
 namespace qmcf {
@@ -62,21 +63,7 @@ bool isRing(const BrepFace& face) {
   return face.loops.size() == 2 && isSmooth(face.loops[0]) && isSmooth(face.loops[1]);
 }
 
-/// Elements across a face, on the mean.
-double rowsAcross(const Brep& brep, const BrepFace& face, const std::vector<EdgeCount>& edges) {
-  double length = 0.0;
-  double wanted = 0.0;
-  for (const BrepLoop& loop : face.loops) {
-    for (const Coedge& coedge : loop.coedges) {
-      length += brep.edges[at(coedge.edge)].length;
-      wanted += edges[at(coedge.edge)].wanted;
-    }
-  }
-  return length > 0.0 ? 2.0 * face.area / length * wanted / length : 0.0;
-}
-
 constexpr double kFewRows = 2.0;
-constexpr double kOneRow = 1.6;  ///< As for meshStrip().
 
 /// In a face of one or two rows there is no room for the two irregular vertices: they become triangles.
 double weightOf(double rows) {
@@ -106,34 +93,22 @@ bool canMatch(const Row& row, const std::vector<EdgeCount>& edges, double ratio)
   return std::fabs(ahead - back) <= kDifference || std::max(ahead, back) <= ratio * std::min(ahead, back);
 }
 
-/// The face of a strip with its corners as a single row of quadrilaterals takes them: between slanted ends the obtuse
-/// ones have an element each, too, or the row would end in triangles.
-BrepFace withEnds(BrepFace face) {
-  constexpr double kMostObtuse = 2.8;  // Radians.
-  if (face.loops.size() != 1) return face;
-  for (std::int32_t missing = 4 - turnOf(face.loops[0]); missing > 0; --missing) {
-    Coedge* sharpest = nullptr;
-    for (Coedge& coedge : face.loops[0].coedges) {
-      if (coedge.cornerQuads != 2 || !(coedge.cornerAngle < kMostObtuse)) continue;
-      if (sharpest == nullptr || coedge.cornerAngle < sharpest->cornerAngle) sharpest = &coedge;
-    }
-    if (sharpest == nullptr) break;
-    sharpest->cornerQuads = 1;
-  }
-  return face;
-}
-
 /// Collects the rows of the faces.
 class RowFinder {
  public:
   RowFinder(const TriangleMesh& mesh, const Brep& brep, const std::vector<EdgeCount>& edges)
-      : mesh_(mesh), brep_(brep), edges_(edges), sums_(brep.edges.size(), 0) {}
+      : mesh_(mesh), brep_(brep), edges_(edges), sums_(brep.edges.size(), 0) {
+    for (const EdgeCount& edge : edges) wanted_.push_back(edge.wanted);
+  }
 
   std::vector<Row> find() {
     for (std::size_t f = 0; f < brep_.faces.size(); ++f) {
       face_ = static_cast<std::int32_t>(f);
-      acrossFace_ = rowsAcross(brep_, brep_.faces[f], edges_);
-      const BrepFace face = acrossFace_ < kOneRow ? withEnds(brep_.faces[f]) : brep_.faces[f];
+      acrossFace_ = rowsAcross(brep_, brep_.faces[f], wanted_);
+      const bool isNarrow = acrossFace_ < kOneRow;
+      if (isNarrow && addTapered(brep_.faces[f])) continue;
+      const BrepFace face = isNarrow ? withEnds(brep_.faces[f]) : brep_.faces[f];
+      if (isNarrow) addEnds(face);
       if (isRectilinear(face)) {
         for (const BrepLoop& loop : face.loops) addLoop(loop);
         if (face.loops.size() == 2 && acrossFace_ < kFewRows) addFrame(face);
@@ -219,6 +194,38 @@ class RowFinder {
 
   static bool isCorner(const Coedge& coedge) { return coedge.cornerQuads != 2; }
 
+  /// A face of one row between a tip and another or an end: as many divisions on one side as on the other. Returns
+  /// false for other faces.
+  bool addTapered(const BrepFace& face) {
+    const std::optional<RowSides> sides = taperedSides(face);
+    if (!sides) return false;
+    add(sides->one, 1);
+    add(sides->other, -1);
+    keepIfItCanMatch(take(0));
+    return true;
+  }
+
+  [[nodiscard]] double wantedOn(const std::vector<Coedge>& side) const {
+    double sum = 0.0;
+    for (const Coedge& coedge : side) sum += wanted_[at(coedge.edge)];
+    return sum;
+  }
+
+  /// The ends of a long single row have one element, whatever their sizes: with two the row would end in triangles.
+  void addEnds(const BrepFace& face) {
+    constexpr double kLong = 8.0;
+    constexpr double kMostWanted = 2.5;
+    const std::optional<RowSides> sides = fourSides(brep_, face);
+    if (!sides) return;
+    for (const std::vector<Coedge>& end : sides->ends) {
+      const double wanted = wantedOn(end);
+      if (wanted > kMostWanted || std::min(wantedOn(sides->one), wantedOn(sides->other)) < kLong * wanted) continue;
+      add(end, 1);
+      Row row = take(1);
+      if (!row.edges.empty()) rows_.push_back(std::move(row));
+    }
+  }
+
   /// A side as long as the two others together has the vertex with three elements on it: one of its elements has a
   /// straight corner. Two divisions less, and it lies a row inside.
   void addTriangle(const BrepLoop& loop) {
@@ -268,6 +275,7 @@ class RowFinder {
   const TriangleMesh& mesh_;
   const Brep& brep_;
   const std::vector<EdgeCount>& edges_;
+  std::vector<double> wanted_;  ///< Per edge.
   std::vector<Row> rows_;
   std::int32_t face_ = kNone;
   double acrossFace_ = 0.0;         ///< Elements across the face.
