@@ -182,6 +182,84 @@ TEST(TurnedSizes, AreSmallestAroundPositiveSingularities) {
   }
 }
 
+/// The patch's own triangulation as a mesh of it.
+FaceMesh trianglesOf(const Patch& patch) {
+  FaceMesh mesh;
+  const Surface& surface = patch.surface;
+  for (const VertexId v : surface.vertices()) {
+    const HalfedgeId h = surface.outgoing(v);
+    SurfacePoint location{Surface::triangle(h), {0.0, 0.0, 0.0}};
+    location.barycentric[static_cast<std::size_t>(h.value % 3)] = 1.0;
+    mesh.positions.push_back(surface.position(v));
+    mesh.normals.push_back(patch.normal[v]);
+    mesh.locations.push_back(location);
+    mesh.patchVertex.push_back(surface.isBoundary(v) ? v.value : kNone);
+  }
+  for (const TriangleId t : surface.triangles()) {
+    const auto corners = surface.corners(t);
+    mesh.elements.push_back({corners[0].value, corners[1].value, corners[2].value, kNone});
+  }
+  return mesh;
+}
+
+IdMap<VertexId, double> madeSizes(const Patch& patch, const FaceMesh& mesh) {
+  SilentProgress progress;
+  auto sizes = sizesOfMesh(patch, mesh, progress);
+  EXPECT_TRUE(sizes.ok());
+  return std::move(sizes).value();
+}
+
+TEST(SizedEdges, TellTheLengthOfEachEdgeOnce) {
+  const Patch patch = testing::makeSquare(8);
+  const FaceMesh mesh = trianglesOf(patch);
+  const std::vector<SizedEdge> edges = sizedEdges(patch, mesh);
+  // Euler's formula for a disc.
+  EXPECT_EQ(edges.size(), mesh.positions.size() + mesh.elements.size() - 1);
+  for (const SizedEdge& edge : edges) {
+    const double length = distance(mesh.positions[static_cast<std::size_t>(edge.ends[0])],
+                                   mesh.positions[static_cast<std::size_t>(edge.ends[1])]);
+    EXPECT_NEAR(edge.size * std::exp(edge.log), length, 1e-12);
+  }
+}
+
+TEST(SizesOfMesh, ComeNearItsEdgesButForTheBoundary) {
+  const Patch square = testing::makeSquare(40);
+  const FaceMesh mesh = trianglesOf(square);
+  double mean = 0.0;
+  const std::vector<SizedEdge> edges = sizedEdges(square, mesh);
+  for (const SizedEdge& edge : edges) mean += edge.log / static_cast<double>(edges.size());
+  // Sizes that are 0.2 off the triangulation's edges, in logarithms, are as long as these in the middle.
+  for (const double off : {-0.2, 0.2}) {
+    Patch patch = square;
+    for (double& size : patch.size.raw()) size *= std::exp(mean + off);
+    const auto made = madeSizes(patch, mesh);
+    const double expected = -0.3 * std::tanh(off / 0.3);
+    for (const VertexId v : patch.surface.vertices()) {
+      const Vec3& p = patch.surface.position(v);
+      const double change = std::log(made[v] / patch.size[v]);
+      if (patch.surface.isBoundary(v)) {
+        EXPECT_EQ(made[v], patch.size[v]);
+      } else if (std::max(std::fabs(p.x - 0.5), std::fabs(p.y - 0.5)) < 0.3) {
+        EXPECT_NEAR(change, expected, 0.03);
+      }
+    }
+  }
+}
+
+TEST(SizesOfMesh, FollowOnlyWhatVariesWithoutABoundary) {
+  Patch sphere = testing::makeSphere(12);
+  const FaceMesh mesh = trianglesOf(sphere);
+  const auto once = madeSizes(sphere, mesh);
+  for (double& size : sphere.size.raw()) size *= 3.0;
+  const auto larger = madeSizes(sphere, mesh);
+  double mean = 0.0;
+  for (const VertexId v : sphere.surface.vertices()) {
+    EXPECT_NEAR(larger[v], 3.0 * once[v], 0.05 * larger[v]);
+    mean += std::log(larger[v] / sphere.size[v]) / static_cast<double>(sphere.surface.vertexCount());
+  }
+  EXPECT_NEAR(mean, 0.0, 0.05);
+}
+
 TEST(SpreadSizes, DoNotDependOnTheUnitOfLength) {
   Patch square = testing::makeSquare(8);
   for (const VertexId v : square.surface.vertices()) square.size[v] = 0.05 + 0.1 * square.surface.position(v).x;

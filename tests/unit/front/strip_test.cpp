@@ -7,6 +7,7 @@
 #include "field/patches.hpp"
 #include "front/face_mesh_checks.hpp"
 #include "qmcf/base/math.hpp"
+#include "qmcf/mesh/element_shape.hpp"
 
 namespace qmcf {
 namespace {
@@ -62,6 +63,58 @@ TEST(Strip, HasAsFewTrianglesAsTheSidesAllow) {
     expectValid(*mesh, patch);
     EXPECT_EQ(triangleCount(*mesh), more);
   }
+}
+
+/// Between two tips, with `divisions` equal ones on each side; `height` in the middle.
+Patch lens(int divisions, double length, double height) {
+  std::vector<Vec3> positions;
+  for (const double side : {-0.5, 0.5}) {
+    for (int i = 0; i <= divisions; ++i) {
+      if (side > 0.0 && (i == 0 || i == divisions)) continue;
+      const double t = static_cast<double>(i) / divisions;
+      positions.push_back({length * t, side * height * 4.0 * t * (1.0 - t), 0.0});
+    }
+  }
+  const auto above = [=](int i) { return i == 0 ? 0 : i == divisions ? divisions : divisions + i; };
+  testing::Corners triangles;
+  for (std::int32_t i = 0; i < divisions; ++i) {
+    if (i > 0) triangles.push_back({i, i + 1, above(i)});
+    if (i + 1 < divisions) triangles.push_back({i + 1, above(i + 1), above(i)});
+  }
+  return testing::makePatch(positions, triangles, length / divisions, 20.0);
+}
+
+TEST(Strip, HasATriangleInEachTip) {
+  const Patch patch = lens(8, 8.0, 0.4);
+  const auto mesh = meshStrip(patch);
+  ASSERT_TRUE(mesh);
+  expectValid(*mesh, patch);
+  EXPECT_EQ(triangleCount(*mesh), 2);
+  EXPECT_EQ(mesh->elements.size(), 8U);
+  for (const Element& element : mesh->elements) {
+    if (cornerCount(element) == 4) {
+      EXPECT_GT(elementShape(*mesh, element), 0.9);
+    }
+  }
+}
+
+TEST(ElementShape, DoesNotBlameAnElementForTheOutline) {
+  const Patch patch = lens(2, 2.0, 0.3);
+  const auto mesh = meshStrip(patch);
+  ASSERT_TRUE(mesh);
+  // The sides meet at 2 atan(0.15).
+  ASSERT_EQ(mesh->elements.size(), 1U);
+  const Element& whole = mesh->elements.front();
+  const double tip = 2.0 * math::atan2(0.15, 1.0);
+  std::array<bool, 4> fills{};
+  EXPECT_NEAR(elementShape(*mesh, whole, fills), math::sin(tip), 1e-9);
+  fills.fill(true);
+  EXPECT_NEAR(elementShape(*mesh, whole, fills), math::sin(math::kPi - tip), 1e-9);
+  // Nothing below a sine of 0.1 is taken for a quadrilateral.
+  const Patch sharp = lens(2, 2.0, 0.04);
+  const auto cut = meshStrip(sharp);
+  ASSERT_TRUE(cut);
+  EXPECT_EQ(triangleCount(*cut), 2);
 }
 
 TEST(Strip, TurnsCornersAndBranches) {

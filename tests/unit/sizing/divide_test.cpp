@@ -402,6 +402,79 @@ TEST(DivideEdges, GivenEdgesKeepTheirOwnPoints) {
   }
 }
 
+/// A flat part with this outline, counter-clockwise, as a fan from its first point. \pre it sees all others
+TriangleMesh fan(const std::vector<Vec3>& outline) {
+  TriangleMesh mesh;
+  mesh.positions = outline;
+  for (std::int32_t i = 1; i + 1 < static_cast<std::int32_t>(outline.size()); ++i)
+    mesh.triangles.push_back({0, i, i + 1});
+  return mesh;
+}
+
+/// The edge between the points nearest to two places.
+std::int32_t edgeBetween(const Divided& d, const Vec3& from, const Vec3& to) {
+  const auto at = [&](std::int32_t vertex) -> const Vec3& {
+    return d.mesh.positions[static_cast<std::size_t>(d.brep.vertices[static_cast<std::size_t>(vertex)].point)];
+  };
+  for (std::size_t e = 0; e < d.brep.edges.size(); ++e) {
+    const Vec3& a = at(d.brep.edges[e].start);
+    const Vec3& b = at(d.brep.edges[e].end);
+    if (std::min(distance(a, from) + distance(b, to), distance(a, to) + distance(b, from)) < 1e-9)
+      return static_cast<std::int32_t>(e);
+  }
+  ADD_FAILURE() << "no such edge";
+  return 0;
+}
+
+TEST(DivideEdges, ARowFromATipToAnEndHasAnOddNumber) {
+  // Two sides and an end of one element: the row begins with a triangle.
+  for (const double size : {0.9, 1.0, 1.1, 1.25}) {
+    const Divided d = divide(fan({{0.0, 0.0, 0.0}, {9.0, -0.3, 0.0}, {9.0, 0.3, 0.0}}), size);
+    ASSERT_EQ(d.brep.edges.size(), 3U);
+    EXPECT_EQ(d.edges.oddFaces, 1);
+    EXPECT_EQ(divisions(d, edgeBetween(d, {0, 0, 0}, {9.0, -0.3, 0})),
+              divisions(d, edgeBetween(d, {0, 0, 0}, {9.0, 0.3, 0})));
+    EXPECT_EQ(divisions(d, edgeBetween(d, {9.0, -0.3, 0}, {9.0, 0.3, 0})), 1);
+  }
+}
+
+TEST(DivideEdges, ATriangleSmallerThanAnElementIsOne) {
+  const Divided d = divide(fan({{0.0, 0.0, 0.0}, {0.24, 0.0, 0.0}, {0.12, 0.2, 0.0}}), 1.0);
+  for (std::int32_t e = 0; e < 3; ++e) EXPECT_EQ(divisions(d, e), 1);
+  EXPECT_EQ(d.edges.oddFaces, 1);
+}
+
+TEST(DivideEdges, SlantedEndsOfALongRowHaveOneElement) {
+  // The ends are 1.6 long, the row 1.3 high.
+  const Divided d = divide(fan({{0.0, 0.0, 0.0}, {24.0, 0.0, 0.0}, {23.1, 1.3, 0.0}, {0.9, 1.3, 0.0}}), 1.0);
+  EXPECT_EQ(divisions(d, edgeBetween(d, {0, 0, 0}, {0.9, 1.3, 0})), 1);
+  EXPECT_EQ(divisions(d, edgeBetween(d, {24.0, 0, 0}, {23.1, 1.3, 0})), 1);
+  EXPECT_EQ(divisions(d, edgeBetween(d, {0, 0, 0}, {24.0, 0, 0})),
+            divisions(d, edgeBetween(d, {23.1, 1.3, 0}, {0.9, 1.3, 0})));
+}
+
+TEST(DivideEdges, NodesOfANarrowRowLieAcrossFromEachOther) {
+  // A row of 10 by 0.2. Two walls meet one of its sides, with a corner between them that is no corner of the row.
+  constexpr double kCorner = 5.4;
+  TriangleMesh mesh = fan({{10.0, 0.2, 0.0}, {0.0, 0.2, 0.0}, {0.0, 0.0, 0.0}, {kCorner, 0.0, 0.0}, {10.0, 0.0, 0.0}});
+  for (const Vec3& p : {Vec3{0.0, 0.0, -2.0}, {kCorner, 0.0, -2.0}, {kCorner, -2.0, -2.0}, {10.0, -2.0, -2.0}}) {
+    mesh.positions.push_back(p);
+  }
+  parts::addQuad(mesh, 3, 2, 5, 6);
+  parts::addQuad(mesh, 4, 3, 7, 8);
+  const Divided d = divide(mesh, 1.0);
+  std::vector<double> above;
+  std::vector<double> below;
+  for (const Vec3& node : d.edges.nodes) {
+    if (node.z == 0.0) (node.y > 0.1 ? above : below).push_back(node.x);
+  }
+  std::sort(above.begin(), above.end());
+  std::sort(below.begin(), below.end());
+  ASSERT_EQ(above.size(), below.size());
+  EXPECT_NE(std::find(below.begin(), below.end(), kCorner), below.end());
+  for (std::size_t i = 0; i < above.size(); ++i) EXPECT_NEAR(above[i], below[i], 1e-9);
+}
+
 TEST(DivideEdges, IsTheSameEveryTime) {
   const Divided a = divide(parts::plateWithHole(5.0, {3.0, 1.0, 0.0}, 0.5, 64), 0.3);
   const Divided b = divide(parts::plateWithHole(5.0, {3.0, 1.0, 0.0}, 0.5, 64), 0.3);
