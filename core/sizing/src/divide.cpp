@@ -6,9 +6,10 @@
 #include <cmath>
 #include <cstddef>
 #include <iterator>
-#include <optional>
 #include <utility>
 
+#include "align_sides.hpp"
+#include "edge_plan.hpp"
 #include "face_uses.hpp"
 #include "narrow_faces.hpp"
 #include "node_places.hpp"
@@ -19,13 +20,6 @@
 
 namespace qmcf {
 namespace {
-
-/// One edge on its way to whole divisions.
-struct Plan : PlacedCurve {
-  std::int32_t least = 1;
-  std::int32_t count = 1;
-  bool asGiven = false;  ///< The curve's own points are the nodes.
-};
 
 EdgeSizes sizesOf(const SizeField& size, const BrepEdge& edge, const EdgeCurve& curve, std::size_t e) {
   if (e < size.edges.size()) return size.edges[e];
@@ -46,9 +40,9 @@ std::int32_t followingCount(const PlacedCurve& placed, std::int32_t count, doubl
 /// How closely chords follow the edge where a face asked for divisions, in lengths of these.
 constexpr double kClose = 0.5;
 
-Plan planEdge(const TriangleMesh& mesh, const BrepEdge& edge, const SizeField& size, std::size_t e,
-              std::int32_t minimum) {
-  Plan plan;
+EdgePlan planEdge(const TriangleMesh& mesh, const BrepEdge& edge, const SizeField& size, std::size_t e,
+                  std::int32_t minimum) {
+  EdgePlan plan;
   plan.curve = edgeCurve(mesh, edge);
   plan.sizes = sizesOf(size, edge, plan.curve, e);
   plan.integral = plan.sizes.divisions();
@@ -69,13 +63,13 @@ Plan planEdge(const TriangleMesh& mesh, const BrepEdge& edge, const SizeField& s
 }
 
 /// The curve's own points become the nodes.
-void keepPoints(Plan& plan) {
+void keepPoints(EdgePlan& plan) {
   plan.asGiven = true;
   plan.count = plan.least = static_cast<std::int32_t>(plan.curve.points.size()) - 1;
 }
 
 /// Of edges between the same two vertices only one may stay undivided: they would be one edge of the mesh.
-void separateParallelEdges(std::vector<Plan>& plans, const Brep& brep) {
+void separateParallelEdges(std::vector<EdgePlan>& plans, const Brep& brep) {
   std::vector<std::array<std::int32_t, 3>> byEnds;  // Both ends, ascending, and the edge.
   for (std::size_t e = 0; e < brep.edges.size(); ++e) {
     const auto [first, last] = std::minmax(brep.edges[e].start, brep.edges[e].end);
@@ -85,7 +79,7 @@ void separateParallelEdges(std::vector<Plan>& plans, const Brep& brep) {
   for (std::size_t i = 0; i < byEnds.size();) {
     std::size_t end = i + 1;
     while (end < byEnds.size() && byEnds[end][0] == byEnds[i][0] && byEnds[end][1] == byEnds[i][1]) ++end;
-    const auto planOf = [&](std::size_t k) -> Plan& { return plans[static_cast<std::size_t>(byEnds[k][2])]; };
+    const auto planOf = [&](std::size_t k) -> EdgePlan& { return plans[static_cast<std::size_t>(byEnds[k][2])]; };
     std::size_t shortest = i;
     for (std::size_t k = i + 1; k < end; ++k) {
       if (planOf(k).wanted() < planOf(shortest).wanted()) shortest = k;
@@ -113,7 +107,7 @@ struct Step {
   double cost = 0.0;
 };
 
-Step stepOf(const Plan& plan) {
+Step stepOf(const EdgePlan& plan) {
   const double up = misfit(plan.count + 1.0, plan.wanted());
   const double down = misfit(std::max(plan.count - 1.0, 0.5), plan.wanted());
   return plan.count > plan.least && down < up ? Step{-1, down} : Step{1, up};
@@ -121,10 +115,10 @@ Step stepOf(const Plan& plan) {
 
 /// Makes the number of divisions around each face even wherever that is possible, and odd where that suits the face
 /// better.
-void makeEven(std::vector<Plan>& plans, const Brep& brep) {
+void makeEven(std::vector<EdgePlan>& plans, const Brep& brep) {
   const auto uses = oddUses(brep);
   std::vector<double> wanted;
-  for (const Plan& plan : plans) wanted.push_back(plan.wanted());
+  for (const EdgePlan& plan : plans) wanted.push_back(plan.wanted());
   std::vector<bool> odd;
   for (const BrepFace& face : brep.faces) odd.push_back(suitsOdd(brep, face, wanted));
   std::vector<std::size_t> changing;
@@ -139,13 +133,13 @@ void makeEven(std::vector<Plan>& plans, const Brep& brep) {
   }
   const std::vector<bool> apply = solveParity(std::move(odd), changes).apply;
   for (std::size_t c = 0; c < changing.size(); ++c) {
-    Plan& plan = plans[changing[c]];
+    EdgePlan& plan = plans[changing[c]];
     if (apply[c]) plan.count += stepOf(plan).by;
   }
 }
 
 /// Faces with an odd number of divisions around them.
-std::int64_t oddFacesOf(const std::vector<Plan>& plans, const Brep& brep) {
+std::int64_t oddFacesOf(const std::vector<EdgePlan>& plans, const Brep& brep) {
   return std::count_if(brep.faces.begin(), brep.faces.end(), [&](const BrepFace& face) {
     std::int32_t sum = 0;
     for (const BrepLoop& loop : face.loops) {
@@ -156,13 +150,13 @@ std::int64_t oddFacesOf(const std::vector<Plan>& plans, const Brep& brep) {
 }
 
 /// A face inside a loop of two edges has no room for a triangle: loops get three at least, by steps that keep parity.
-void fillSmallLoops(std::vector<Plan>& plans, const Brep& brep) {
+void fillSmallLoops(std::vector<EdgePlan>& plans, const Brep& brep) {
   for (const BrepFace& face : brep.faces) {
     for (const BrepLoop& loop : face.loops) {
       std::int32_t sum = 0;
       std::size_t longest = 0;
       for (std::size_t c = 0; c < loop.coedges.size(); ++c) {
-        const auto plan = [&](std::size_t i) -> const Plan& {
+        const auto plan = [&](std::size_t i) -> const EdgePlan& {
           return plans[static_cast<std::size_t>(loop.coedges[i].edge)];
         };
         sum += plan(c).count;
@@ -175,93 +169,14 @@ void fillSmallLoops(std::vector<Plan>& plans, const Brep& brep) {
   }
 }
 
-void balance(std::vector<Plan>& plans, const TriangleMesh& mesh, const Brep& brep) {
+void balance(std::vector<EdgePlan>& plans, const TriangleMesh& mesh, const Brep& brep) {
   std::vector<EdgeCount> counts;
-  for (const Plan& plan : plans) counts.push_back({plan.wanted(), plan.least, plan.count, plan.asGiven});
+  for (const EdgePlan& plan : plans) counts.push_back({plan.wanted(), plan.least, plan.count, plan.asGiven});
   balanceSides(mesh, brep, counts);
   for (std::size_t e = 0; e < plans.size(); ++e) plans[e].count = counts[e].count;
 }
 
-/// One side of a narrow face, from one end to the other, as its edges lie on it.
-struct Side {
-  struct Piece {
-    std::size_t edge = 0;
-    bool reversed = false;
-    double start = 0.0;  ///< Arc length along the side.
-    double length = 0.0;
-  };
-  std::vector<Piece> pieces;
-  double length = 0.0;
-
-  Side(const std::vector<Coedge>& coedges, bool backwards, const std::vector<Plan>& plans) {
-    for (std::size_t i = 0; i < coedges.size(); ++i) {
-      const Coedge& coedge = coedges[backwards ? coedges.size() - 1 - i : i];
-      const auto e = static_cast<std::size_t>(coedge.edge);
-      pieces.push_back({e, coedge.reversed != backwards, length, plans[e].curve.length()});
-      length += pieces.back().length;
-    }
-  }
-
-  /// From a share of the side's length to the edge's own arc length; outside of the edge: nothing.
-  [[nodiscard]] std::optional<double> onPiece(const Piece& piece, double share) const {
-    const double s = share * length - piece.start;
-    if (!(s > 0.0) || !(s < piece.length)) return std::nullopt;
-    return piece.reversed ? piece.length - s : s;
-  }
-
-  [[nodiscard]] double shareOf(const Piece& piece, double arcLength) const {
-    return (piece.start + (piece.reversed ? piece.length - arcLength : arcLength)) / length;
-  }
-};
-
-using Places = std::vector<std::vector<double>>;
-
-/// Places the nodes of a side anew, where it may be across from these shares of its length.
-void seek(const Side& side, const std::vector<double>& shares, std::vector<Plan>& plans, Places& places) {
-  for (const Side::Piece& piece : side.pieces) {
-    Plan& plan = plans[piece.edge];
-    if (plan.asGiven || plan.count < 2) continue;
-    std::vector<double> sought;
-    for (const double share : shares) {
-      if (const auto s = side.onPiece(piece, share)) sought.push_back(*s);
-    }
-    if (sought.empty()) continue;
-    plan.sought.insert(plan.sought.end(), sought.begin(), sought.end());
-    std::sort(plan.sought.begin(), plan.sought.end());
-    places[piece.edge] = placeNodesOnCurve(plan, plan.count).arcLength;
-  }
-}
-
-/// In a face of one row the nodes of one side lie across from those of the other.
-void alignSides(std::vector<Plan>& plans, const Brep& brep, Places& places) {
-  std::vector<double> wanted;
-  for (const Plan& plan : plans) wanted.push_back(plan.wanted());
-  for (const BrepFace& face : brep.faces) {
-    if (rowsAcross(brep, face, wanted) >= kOneRow) continue;
-    std::optional<RowSides> sides = taperedSides(face);
-    if (!sides) sides = fourSides(brep, withEnds(face));
-    if (!sides) continue;
-    const Side one(sides->one, false, plans);
-    const Side other(sides->other, true, plans);
-    // The side of more pieces, each with its ends where they are, leads.
-    const bool isOneFirst = one.pieces.size() >= other.pieces.size();
-    const Side& leader = isOneFirst ? one : other;
-    const Side& follower = isOneFirst ? other : one;
-    std::vector<double> ends;
-    for (const Side::Piece& piece : follower.pieces) {
-      if (piece.start > 0.0) ends.push_back(piece.start / follower.length);
-    }
-    seek(leader, ends, plans, places);
-    std::vector<double> nodes;
-    for (const Side::Piece& piece : leader.pieces) {
-      for (const double s : places[piece.edge]) nodes.push_back(leader.shareOf(piece, s));
-    }
-    std::sort(nodes.begin(), nodes.end());
-    seek(follower, nodes, plans, places);
-  }
-}
-
-void placeNodes(DividedEdges& divided, const Plan& plan, const BrepEdge& edge, std::vector<double> places) {
+void placeNodes(DividedEdges& divided, const EdgePlan& plan, const BrepEdge& edge, std::vector<double> places) {
   EdgeDivision division;
   division.arcLength = std::move(places);
   for (std::size_t i = 0; i < division.arcLength.size(); ++i) {
@@ -287,7 +202,7 @@ void placeNodes(DividedEdges& divided, const Plan& plan, const BrepEdge& edge, s
 
 DividedEdges divideEdges(const TriangleMesh& mesh, const Brep& brep, const SizeField& size,
                          const std::vector<std::int32_t>& minimumDivisions, const std::vector<std::uint8_t>& asGiven) {
-  std::vector<Plan> plans;
+  std::vector<EdgePlan> plans;
   for (std::size_t e = 0; e < brep.edges.size(); ++e) {
     const std::int32_t minimum = e < minimumDivisions.size() ? minimumDivisions[e] : 1;
     plans.push_back(planEdge(mesh, brep.edges[e], size, e, minimum));
@@ -305,11 +220,11 @@ DividedEdges divideEdges(const TriangleMesh& mesh, const Brep& brep, const SizeF
     divided.nodes.push_back(mesh.positions[static_cast<std::size_t>(vertex.point)]);
     divided.nodeSize.push_back(0.0);
   }
-  Places places;
-  for (const Plan& plan : plans) {
+  std::vector<std::vector<double>> places;
+  for (const EdgePlan& plan : plans) {
     places.push_back(plan.asGiven ? plan.curve.arcLength : placeNodesOnCurve(plan, plan.count).arcLength);
   }
-  alignSides(plans, brep, places);
+  alignSides(brep, plans, places);
   for (std::size_t e = 0; e < brep.edges.size(); ++e) {
     placeNodes(divided, plans[e], brep.edges[e], std::move(places[e]));
   }

@@ -1,0 +1,90 @@
+#include "align_sides.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <optional>
+
+#include "narrow_faces.hpp"
+
+namespace qmcf {
+namespace {
+
+/// One side of a narrow face, from one end to the other, as its edges lie on it.
+struct Side {
+  struct Piece {
+    std::size_t edge = 0;
+    bool reversed = false;
+    double start = 0.0;  ///< Arc length along the side.
+    double length = 0.0;
+  };
+  std::vector<Piece> pieces;
+  double length = 0.0;
+
+  Side(const std::vector<Coedge>& coedges, bool backwards, const std::vector<EdgePlan>& plans) {
+    for (std::size_t i = 0; i < coedges.size(); ++i) {
+      const Coedge& coedge = coedges[backwards ? coedges.size() - 1 - i : i];
+      const auto e = static_cast<std::size_t>(coedge.edge);
+      pieces.push_back({e, coedge.reversed != backwards, length, plans[e].curve.length()});
+      length += pieces.back().length;
+    }
+  }
+
+  /// From a share of the side's length to the edge's own arc length; outside of the edge: nothing.
+  [[nodiscard]] std::optional<double> onPiece(const Piece& piece, double share) const {
+    const double s = share * length - piece.start;
+    if (!(s > 0.0) || !(s < piece.length)) return std::nullopt;
+    return piece.reversed ? piece.length - s : s;
+  }
+
+  [[nodiscard]] double shareOf(const Piece& piece, double arcLength) const {
+    return (piece.start + (piece.reversed ? piece.length - arcLength : arcLength)) / length;
+  }
+};
+
+/// Places the nodes of a side anew, where it may be across from these shares of its length.
+void seek(const Side& side, const std::vector<double>& shares, std::vector<EdgePlan>& plans, std::vector<std::vector<double>>& places) {
+  for (const Side::Piece& piece : side.pieces) {
+    EdgePlan& plan = plans[piece.edge];
+    if (plan.asGiven || plan.count < 2) continue;
+    std::vector<double> sought;
+    for (const double share : shares) {
+      if (const auto s = side.onPiece(piece, share)) sought.push_back(*s);
+    }
+    if (sought.empty()) continue;
+    plan.sought.insert(plan.sought.end(), sought.begin(), sought.end());
+    std::sort(plan.sought.begin(), plan.sought.end());
+    places[piece.edge] = placeNodesOnCurve(plan, plan.count).arcLength;
+  }
+}
+
+}  // namespace
+
+void alignSides(const Brep& brep, std::vector<EdgePlan>& plans, std::vector<std::vector<double>>& places) {
+  std::vector<double> wanted;
+  for (const EdgePlan& plan : plans) wanted.push_back(plan.wanted());
+  for (const BrepFace& face : brep.faces) {
+    if (rowsAcross(brep, face, wanted) >= kOneRow) continue;
+    std::optional<RowSides> sides = taperedSides(face);
+    if (!sides) sides = fourSides(brep, withEnds(face));
+    if (!sides) continue;
+    const Side one(sides->one, false, plans);
+    const Side other(sides->other, true, plans);
+    // The side of more pieces, each with its ends where they are, leads.
+    const bool isOneFirst = one.pieces.size() >= other.pieces.size();
+    const Side& leader = isOneFirst ? one : other;
+    const Side& follower = isOneFirst ? other : one;
+    std::vector<double> ends;
+    for (const Side::Piece& piece : follower.pieces) {
+      if (piece.start > 0.0) ends.push_back(piece.start / follower.length);
+    }
+    seek(leader, ends, plans, places);
+    std::vector<double> nodes;
+    for (const Side::Piece& piece : leader.pieces) {
+      for (const double s : places[piece.edge]) nodes.push_back(leader.shareOf(piece, s));
+    }
+    std::sort(nodes.begin(), nodes.end());
+    seek(follower, nodes, plans, places);
+  }
+}
+
+}  // namespace qmcf
