@@ -30,6 +30,8 @@ constexpr double kTurnReach = 8.0;
 /// How far the logarithm of a size goes for the turn of the field, and for what a mesh came out with, either way.
 constexpr double kMostForTurn = 0.3;
 constexpr double kMostForMesh = 0.3;
+/// A single edge counts for so much, whatever its length.
+constexpr double kMostOfEdge = 1.0;
 
 /// Numbers the vertices of all patches: nodes have theirs, those inside follow.
 class Unknowns {
@@ -198,18 +200,21 @@ PulledSystem meshSystem(const Patch& patch, const FaceMesh& mesh, const InnerUnk
   const std::vector<SizedEdge> edges = sizedEdges(patch, mesh);
   double mean = 0.0;
   if (inner.count == static_cast<std::int32_t>(surface.vertexCount())) {
-    for (const SizedEdge& edge : edges) mean += edge.log / static_cast<double>(edges.size());
+    for (const SizedEdge& edge : edges) {
+      mean += std::clamp(edge.log, -kMostOfEdge, kMostOfEdge) / static_cast<double>(edges.size());
+    }
   }
   for (const SizedEdge& edge : edges) {
     // Half an element for each edge, half of that for each end.
     const double weight = 0.25 * edge.size * edge.size;
+    const double log = std::clamp(edge.log - mean, -kMostOfEdge, kMostOfEdge);
     for (const std::int32_t end : edge.ends) {
       const SurfacePoint& point = mesh.locations[static_cast<std::size_t>(end)];
       const auto corners = surface.corners(point.triangle);
       for (std::size_t i = 0; i < 3; ++i) {
         const double share = weight * point.barycentric[i];
         for (std::size_t j = 0; j < 3; ++j) add(corners[i], corners[j], share * point.barycentric[j]);
-        if (inner.of[corners[i]] != kNone) system.side[inner.of[corners[i]]] += share * (edge.log - mean);
+        if (inner.of[corners[i]] != kNone) system.side[inner.of[corners[i]]] += share * log;
       }
     }
   }

@@ -62,7 +62,10 @@ Result<MeshedFace> meshSettled(const Part& part, PreparedFaces& prepared, std::i
 
   IdMap<VertexId, double> sizes = patch.size;
   const std::uint8_t settled = prepared.settled[f];
-  if (const auto error = followMesh(prepared, f, before, part.options, progress)) return *error;
+  if (const auto error = followMesh(prepared, f, before, part.options, progress)) {
+    if (error->code == ErrorCode::cancelled) return *error;
+    return first;
+  }
   auto second = meshFace(part, prepared, face, progress);
   if (!second) return second;
   const FaceMesh& now = second.value().mesh;

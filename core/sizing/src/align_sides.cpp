@@ -42,7 +42,8 @@ struct Side {
 };
 
 /// Places the nodes of a side anew, where it may be across from these shares of its length.
-void seek(const Side& side, const std::vector<double>& shares, std::vector<EdgePlan>& plans, std::vector<std::vector<double>>& places) {
+void seek(const Side& side, const std::vector<double>& shares, std::vector<EdgePlan>& plans,
+          std::vector<std::vector<double>>& places) {
   for (const Side::Piece& piece : side.pieces) {
     EdgePlan& plan = plans[piece.edge];
     if (plan.asGiven || plan.count < 2) continue;
