@@ -395,6 +395,26 @@ test('mesh --sizing-out writes a size per vertex of the file, and per different 
   assert.equal(qmcf('mesh', 'sized.obj', '-o', 'sized.quads.obj', '--sizing-out', 'missing/sizes.txt').status, 2);
 });
 
+test('mesh --sizing-mesh writes the triangles that sizes are linear on', () => {
+  put('sized.obj', cube(2));
+  const args = ['mesh', 'sized.obj', '-o', 'sized.quads.obj', '--quads', '600', '--quiet', '--sizing-mesh'];
+  const run = qmcf(...args, 'sizing.obj', '--sizing-out', 'sizes.txt', '--report', 'sized.json');
+  assert.equal(run.status, 0, run.stderr);
+  const vertices = get('sizing.obj').match(/^v .*$/gm).map((line) => line.split(' ').slice(1).map(Number));
+  const triangles = get('sizing.obj').match(/^f .*$/gm).map((line) => line.split(' ').slice(1).map((v) => parseInt(v, 10) - 1));
+  const sizes = get('sizes.txt').trimEnd().split('\n').map(Number);
+  assert.equal(sizes.length, vertices.length);
+  // One closed surface, whose faces share the nodes of their edges.
+  assert.ok(triangles.every((t) => t.length === 3));
+  assert.equal(vertices.length - triangles.length / 2, 2);
+  // 24 squares of the area that 600 elements have.
+  const { size } = JSON.parse(get('sized.json'));
+  assert.ok(sizes.every((h) => Math.abs(Math.log(h / size)) < 0.35), `${Math.min(...sizes)} ${Math.max(...sizes)} ${size}`);
+
+  assert.equal(qmcf(...args, 'sizing.obj').status, 2);
+  assert.match(qmcf(...args, 'sizing.xyz', '--sizing-out', 'sizes.txt').stderr, /sizing\.xyz has no known extension/);
+});
+
 test('mesh --sizing takes a size per vertex of the file, as --sizing-out writes them', () => {
   // Elements grow along x from 0.1 to 0.4.
   put('graded.obj', cube(4));

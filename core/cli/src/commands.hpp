@@ -16,6 +16,7 @@ struct MeshCommand {
   std::string constraints;  ///< File of strokes; empty: none.
   std::string sizing;       ///< File with sizes at the input's vertices; empty: none.
   std::string sizingOut;    ///< File for the target sizes at the input's vertices; empty: none.
+  std::string sizingMesh;   ///< File for triangles, whose vertices the target sizes are for then; empty: none.
   MeshOptions options;
   bool quiet = false;
 };

@@ -79,8 +79,14 @@ void addMesh(CLI::App& app, MeshCommand& command) {
                "Quadrilaterals only: a mesh of twice the size, each element cut up");
   app.add_option("--report", command.report, "Write a report")->type_name("FILE.json");
   app.add_option("--trace", command.trace, "Write the history of the front, step by step")->type_name("FILE.json");
-  app.add_option("--sizing-out", command.sizingOut, "Write the target edge length at each vertex of the model")
-      ->type_name("FILE");
+  CLI::Option* const sizingOut =
+      app.add_option("--sizing-out", command.sizingOut, "Write the target edge length at each vertex of the model")
+          ->type_name("FILE");
+  app.add_option("--sizing-mesh", command.sizingMesh,
+                 "Write the triangles that the target edge length is linear on; --sizing-out then tells it at their "
+                 "vertices")
+      ->type_name("OUT")
+      ->needs(sizingOut);
   app.add_flag("--quiet", command.quiet, "Print nothing but errors");
 }
 

@@ -17,16 +17,19 @@
 namespace qmcf::cli {
 namespace {
 
+Error unknownFormat(const std::string& file) {
+  return {ErrorCode::unsupportedOutput,
+          file + " has no known extension; use .obj, .ply, .stl, .vtu, .msh, .inp, .bdf or .nas.",
+          {}};
+}
+
 /// An error that is known before anything has been read.
 std::optional<Error> checkCommand(const MeshCommand& command) {
-  if (!outputFormatOf(command.output)) {
-    return Error{ErrorCode::unsupportedOutput,
-                 command.output + " has no known extension; use .obj, .ply, .stl, .vtu, .msh, .inp, .bdf or .nas.",
-                 {}};
-  }
+  if (!outputFormatOf(command.output)) return unknownFormat(command.output);
   if (std::optional<Error> error = validateOptions(command.options)) return error;
   if (std::optional<Error> error = checkWritable(command.output)) return error;
-  for (const std::string& file : {command.report, command.trace, command.sizingOut}) {
+  if (!command.sizingMesh.empty() && !outputFormatOf(command.sizingMesh)) return unknownFormat(command.sizingMesh);
+  for (const std::string& file : {command.report, command.trace, command.sizingOut, command.sizingMesh}) {
     if (std::optional<Error> error = file.empty() ? std::nullopt : checkWritable(file)) return error;
   }
   return std::nullopt;
@@ -60,6 +63,7 @@ int run(const MeshCommand& command) {
   if (!model.ok()) return fail(model.error(), command.input);
   MeshOptions options = command.options;
   options.trace = !command.trace.empty();
+  options.sizingMesh = !command.sizingMesh.empty();
   if (!command.sizing.empty()) {
     Result<std::vector<double>> sizes = spreadSizing(options.sizes, model.value());
     if (!sizes.ok()) return fail(sizes.error(), command.sizing);
@@ -83,8 +87,13 @@ int run(const MeshCommand& command) {
     if (const std::optional<Error> error = writeFile(command.trace, traceJson(mesh))) return fail(*error);
   }
   if (!command.sizingOut.empty()) {
-    const std::string sizes = sizingText(model.value(), mesh.vertexSize);
+    const std::string sizes =
+        mesh.sizingMesh ? sizingText(mesh.sizingMesh->size) : sizingText(model.value(), mesh.vertexSize);
     if (const std::optional<Error> error = writeFile(command.sizingOut, sizes)) return fail(*error);
+  }
+  if (mesh.sizingMesh) {
+    const std::string triangles = writeMesh(mesh.sizingMesh->triangles, *outputFormatOf(command.sizingMesh));
+    if (const std::optional<Error> error = writeFile(command.sizingMesh, triangles)) return fail(*error);
   }
   if (command.quiet) return kDone;
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;

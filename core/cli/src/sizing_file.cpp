@@ -34,20 +34,25 @@ std::string quoted(std::string_view text) {
 
 }  // namespace
 
-std::string sizingText(const ReadModel& model, const std::vector<double>& size) {
-  const std::vector<std::int32_t> vertices = fileVertices(model);
+std::string sizingText(const std::vector<double>& size) {
   std::string text;
-  std::int32_t written = 0;
-  for (std::size_t v = 0; v < size.size(); ++v) {
-    if (vertices[v] < written) continue;
-    ++written;
+  for (const double h : size) {
     constexpr std::size_t kMostDigits = 32;
     char digits[kMostDigits];
-    const auto [end, error] = std::to_chars(digits, digits + kMostDigits, size[v]);
+    const auto [end, error] = std::to_chars(digits, digits + kMostDigits, h);
     (void)error;  // 32 characters hold the shortest form of every double.
     text.append(digits, end).push_back('\n');
   }
   return text;
+}
+
+std::string sizingText(const ReadModel& model, const std::vector<double>& size) {
+  const std::vector<std::int32_t> vertices = fileVertices(model);
+  std::vector<double> ofFile;
+  for (std::size_t v = 0; v < size.size(); ++v) {
+    if (vertices[v] >= static_cast<std::int32_t>(ofFile.size())) ofFile.push_back(size[v]);
+  }
+  return sizingText(ofFile);
 }
 
 Result<std::vector<double>> readSizing(const std::string& path) {

@@ -8,6 +8,9 @@
 
 namespace qmcf::cli {
 
+/// One number per line.
+std::string sizingText(const std::vector<double>& size);
+
 /// One number per line for each vertex of the file (fileVertices()), in its order. `size`: per vertex as read.
 std::string sizingText(const ReadModel& model, const std::vector<double>& size);
 

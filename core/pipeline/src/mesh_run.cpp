@@ -328,6 +328,7 @@ class MeshRun {
     }
     const SizeField* other = asked ? &*asked : nullptr;
     result_.sizeConformity = sizeConformity(result_.mesh, mesh_, prepared, other, coarsening_);
+    if (options_.sizingMesh) result_.sizingMesh = sizingMeshOf(mesh_, prepared, other, coarsening_);
     result_.vertexSize = options_.fitSizes.value_or(false)
                              ? settledSizesAt(inputPositions_, mesh_, prepared, other, coarsening_)
                              : sizesAt(inputPositions_, mesh_, asked ? *asked : prepared.size, coarsening_);

@@ -163,4 +163,40 @@ std::vector<double> settledSizesAt(const std::vector<Vec3>& points, const Triang
   return result;
 }
 
+SizingMesh sizingMeshOf(const TriangleMesh& repaired, const PreparedFaces& prepared, const SizeField* asked,
+                        double coarsening) {
+  SizingMesh sizing;
+  QuadMesh& mesh = sizing.triangles;
+  std::vector<double> logs;
+  std::vector<double> count;
+  std::vector<std::int32_t> vertexOfNode(prepared.divided.nodes.size(), kNone);
+  for (const Patch& patch : prepared.patches) {
+    IdMap<VertexId, std::int32_t> vertex;
+    for (const VertexId v : patch.surface.vertices()) {
+      const std::int32_t node = patch.node[v];
+      std::int32_t id = node == kNone ? kNone : vertexOfNode[static_cast<std::size_t>(node)];
+      if (id == kNone) {
+        id = static_cast<std::int32_t>(mesh.positions.size());
+        mesh.positions.push_back(patch.surface.position(v));
+        logs.push_back(0.0);
+        count.push_back(0.0);
+        if (node != kNone) vertexOfNode[static_cast<std::size_t>(node)] = id;
+      }
+      logs[static_cast<std::size_t>(id)] += math::log(patch.size[v] / coarsening);
+      count[static_cast<std::size_t>(id)] += 1.0;
+      vertex.push_back(id);
+    }
+    for (const TriangleId t : patch.surface.triangles()) {
+      const std::array<VertexId, 3> corners = patch.surface.corners(t);
+      mesh.elements.push_back({vertex[corners[0]], vertex[corners[1]], vertex[corners[2]], kNone});
+      mesh.elementFace.push_back(patch.face);
+    }
+  }
+  for (std::size_t v = 0; v < logs.size(); ++v) sizing.size.push_back(math::exp(logs[v] / count[v]));
+  if (asked == nullptr) return sizing;
+  const std::vector<double> change = ratios(mesh.positions, repaired, *asked, prepared.size);
+  for (std::size_t v = 0; v < change.size(); ++v) sizing.size[v] *= change[v];
+  return sizing;
+}
+
 }  // namespace qmcf

@@ -24,4 +24,8 @@ std::vector<double> sizesAt(const std::vector<Vec3>& points, const TriangleMesh&
 std::vector<double> settledSizesAt(const std::vector<Vec3>& points, const TriangleMesh& repaired,
                                    const PreparedFaces& prepared, const SizeField* asked, double coarsening);
 
+/// All sizes that sizeConformity() measures by. asked, coarsening: as there.
+SizingMesh sizingMeshOf(const TriangleMesh& repaired, const PreparedFaces& prepared, const SizeField* asked,
+                        double coarsening);
+
 }  // namespace qmcf

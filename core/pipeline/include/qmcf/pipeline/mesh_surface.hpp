@@ -58,7 +58,8 @@ struct MeshOptions {
   /// Faces worked on at a time, 1 to 256. Default: as many as the machine has hardware threads. The mesh does not
   /// depend on it. Ignored where the library is built without threads (WebAssembly).
   std::optional<std::int64_t> threads;
-  bool trace = false;  ///< Record how each face was meshed, step by step: MeshResult::trace.
+  bool trace = false;       ///< Record how each face was meshed, step by step: MeshResult::trace.
+  bool sizingMesh = false;  ///< Keep the triangles that sizes are linear on: MeshResult::sizingMesh.
 };
 
 /// How one face was meshed.
@@ -68,6 +69,13 @@ struct FaceReport {
   std::string reason;  ///< Why the earlier steps did not; empty for the first.
   std::int64_t quads = 0;
   std::int64_t triangles = 0;
+};
+
+/// The target edge lengths as the front has them: linear on the background triangulations of the faces, joined at the
+/// nodes of their edges. Where faces want different lengths at a node, the geometric mean.
+struct SizingMesh {
+  QuadMesh triangles;
+  std::vector<double> size;  ///< Per vertex.
 };
 
 /// The input as the later stages see it; enough to draw the part.
@@ -112,6 +120,7 @@ struct MeshResult {
   bool fittedSizes = false;        ///< Sizes vary to fit the field (MeshOptions::fitSizes), by 5 % at least.
   SizeSources sizing;              ///< How many vertices of the repaired input have another size than `size`, and why.
   std::vector<double> vertexSize;  ///< Per vertex of the input: the target edge length there.
+  std::optional<SizingMesh> sizingMesh;  ///< If it was asked for.
   std::int64_t refinedPlaces = 0;  ///< Where elements of the size asked for could not follow the part: smaller there.
   /// Faces that were not relaxed together with the others, across their edges, because they would not be valid then.
   std::int64_t heldFaces = 0;
