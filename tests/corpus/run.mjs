@@ -8,7 +8,7 @@ import { parseArgs } from 'node:util';
 import { runMeasured } from './child.mjs';
 import { ledgerFault, readElements } from '../tools/lib/ledger.mjs';
 import { compareResults, resultTable, summaryLine } from './table.mjs';
-import { judgeMesh } from './verdict.mjs';
+import { judgeMesh, judgeSizes } from './verdict.mjs';
 
 const ROOT = resolve(dirname(fileURLToPath(import.meta.url)), '../..');
 const USAGE = `usage: tests/corpus/run [FOLDER or FILE ...] [options] [-- options of qmcf mesh]
@@ -20,6 +20,7 @@ const USAGE = `usage: tests/corpus/run [FOLDER or FILE ...] [options] [-- option
   --qmcf PATH      the program (build/native/bin/qmcf)
   --judge PATH     the judge; default: QMCF_JUDGE or ../shared/judge/judge.mjs if it exists; none: qmcf check
   --samples N      the judge's surface samples in each direction (30000)
+  --sizes          judge sizes by the field that the mesh was made with, not by one length
   --out DIR        where the meshes go (a new temporary folder)
   --pictures       draw each mesh beside it, with its part's features
   --json FILE      write the results
@@ -39,7 +40,7 @@ function parseCommandLine(args) {
     allowPositionals: true,
     options: {
       quads: text, jobs: text, timeout: text, only: text, qmcf: text, judge: text, samples: text, out: text, json: text, base: text,
-      demands: text, pictures: { type: 'boolean' }, help: { type: 'boolean' },
+      demands: text, pictures: { type: 'boolean' }, sizes: { type: 'boolean' }, help: { type: 'boolean' },
     },
   });
   const number = (name, fallback) => {
@@ -84,6 +85,8 @@ async function measureModel(part, options) {
   const mesh = join(options.out, `${model}.quads.obj`);
   const report = join(options.out, `${model}.report.json`);
   const args = ['mesh', part, '-o', mesh, '--report', report, '--quads', String(options.quads), '--quiet', ...options.extra];
+  const sizing = { mesh: join(options.out, `${model}.sizing.obj`), sizes: join(options.out, `${model}.sizes`) };
+  if (options.sizes) args.push('--sizing-mesh', sizing.mesh, '--sizing-out', sizing.sizes);
   const run = await runMeasured(options.qmcf, args, options.timeout);
   const { seconds, cpuSeconds, peakMegabytes } = run;
   const result = { model, seconds, cpuSeconds, peakMegabytes, exit: run.exit };
@@ -93,6 +96,7 @@ async function measureModel(part, options) {
     return { ...result, verdict: VERDICT_OF_EXIT[run.exit] ?? 'FAILED', message: `exit ${run.exit}: ${run.stderr.trim().split('\n').pop()}` };
   }
   const { valid, ...figures } = await judgeMesh(options, part, mesh);
+  if (options.sizes && options.judge) figures.sizeError = await judgeSizes(options, mesh, sizing);
   const fault = ledgerFault(JSON.parse(readFileSync(report, 'utf8')).quality, readElements(mesh));
   if (fault) figures.failing.push(fault);
   if (options.pictures) await drawMesh(part, mesh);

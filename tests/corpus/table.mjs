@@ -48,6 +48,7 @@ export function summaryLine(results) {
     `quads ${percent(mean((r) => r.quadShare))} %`,
     `regular ${percent(mean((r) => r.regularShare))} %`,
     `SJ ${fixed(3)(mean((r) => r.scaledJacobian?.mean))}`,
+    `size ${fixed(3)(mean((r) => r.sizeError))}`,
     `sharp ${percent(mean((r) => r.sharpRecall))} %`,
     `corners ${percent(mean((r) => r.cornerRecall))} %`,
     `cpu ${fixed(1)(results.reduce((sum, r) => sum + (r.cpuSeconds ?? 0), 0))} s`,

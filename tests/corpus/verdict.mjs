@@ -18,6 +18,17 @@ export async function judgeMesh({ judge, qmcf, samples }, part, mesh) {
   }
 }
 
+/** Mean |log2(length / size)| of the edges, by the judge, with sizes that are linear on the triangles of a mesh. */
+export async function judgeSizes({ judge }, mesh, sizing) {
+  const args = [judge, '--json', '--samples', '1000', '--ref', sizing.mesh, '--sizefield', sizing.sizes, mesh];
+  const result = await runMeasured(process.execPath, args, JUDGE_TIMEOUT_SECONDS);
+  try {
+    return JSON.parse(result.stdout).size.mean_abs_log2;
+  } catch {
+    return null;
+  }
+}
+
 function fromJudge({ validity, composition, regularity, quality, size, fidelity, features }) {
   const quads = quality.quads ?? {};
   return {
