@@ -193,7 +193,7 @@ std::optional<Error> assign(std::vector<FieldStroke>& option, std::string_view n
 template <class Visit>
 void forEachOption(MeshOptions& options, Visit visit) {
   auto& [size, quads, sizes, curvature, fitSizes, featureAngle, mode, allQuad, repair, gradation, alignBoundary,
-         alignSharp, alignNonManifold, alignCurvature, strokes, threads, trace, sizingMesh] = options;
+         alignSharp, alignNonManifold, alignCurvature, strokes, threads, trace] = options;
   visit("size", size);
   visit("quads", quads);
   visit("sizes", sizes);
@@ -211,7 +211,6 @@ void forEachOption(MeshOptions& options, Visit visit) {
   visit("strokes", strokes);
   visit("threads", threads);
   visit("trace", trace);
-  (void)sizingMesh;  // What it asks for is no part of the package's result.
 }
 
 /// The error for a key that is no option's name, if there is one.
