@@ -63,13 +63,14 @@ int run(const MeshCommand& command) {
   if (!model.ok()) return fail(model.error(), command.input);
   MeshOptions options = command.options;
   options.trace = !command.trace.empty();
-  options.sizingMesh = !command.sizingMesh.empty();
   if (!command.sizing.empty()) {
     Result<std::vector<double>> sizes = spreadSizing(options.sizes, model.value());
     if (!sizes.ok()) return fail(sizes.error(), command.sizing);
     options.sizes = std::move(sizes).value();
   }
-  const Result<MeshResult> result = meshSurface(model.value().mesh, options, progress);
+  SizingMesh sizing;
+  const bool wantsSizing = !command.sizingMesh.empty();
+  const Result<MeshResult> result = meshSurface(model.value().mesh, options, progress, wantsSizing ? &sizing : nullptr);
   console.clear();
   if (!result.ok()) return fail(result.error(), command.input);
 
@@ -87,12 +88,11 @@ int run(const MeshCommand& command) {
     if (const std::optional<Error> error = writeFile(command.trace, traceJson(mesh))) return fail(*error);
   }
   if (!command.sizingOut.empty()) {
-    const std::string sizes =
-        mesh.sizingMesh ? sizingText(mesh.sizingMesh->size) : sizingText(model.value(), mesh.vertexSize);
+    const std::string sizes = wantsSizing ? sizingText(sizing.size) : sizingText(model.value(), mesh.vertexSize);
     if (const std::optional<Error> error = writeFile(command.sizingOut, sizes)) return fail(*error);
   }
-  if (mesh.sizingMesh) {
-    const std::string triangles = writeMesh(mesh.sizingMesh->triangles, *outputFormatOf(command.sizingMesh));
+  if (wantsSizing) {
+    const std::string triangles = writeMesh(sizing.triangles, *outputFormatOf(command.sizingMesh));
     if (const std::optional<Error> error = writeFile(command.sizingMesh, triangles)) return fail(*error);
   }
   if (command.quiet) return kDone;

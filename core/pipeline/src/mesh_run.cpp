@@ -61,7 +61,8 @@ void holdPlace(std::vector<Ball>& places, const Vec3& centre, double radius) {
 /// Meshes an inspected part; as long as the mesh is not valid and smaller elements may help, once more with these.
 class MeshRun {
  public:
-  MeshRun(const TriangleMesh& input, MeshResult inspected, const MeshOptions& options, Progress& progress)
+  MeshRun(const TriangleMesh& input, MeshResult inspected, const MeshOptions& options, Progress& progress,
+          SizingMesh* sizing)
       : result_(std::move(inspected)),
         inputPositions_(input.positions),
         mesh_(result_.input.repaired.mesh),
@@ -70,7 +71,8 @@ class MeshRun {
         part_(mesh_, brep_, options_),
         // Where all elements will be cut up, those before are twice as long.
         coarsening_(options.allQuad ? 2.0 : 1.0),
-        progress_(progress) {}
+        progress_(progress),
+        sizing_(sizing) {}
 
   Result<MeshResult> run() {
     auto chosen = chooseSizes(part_, progress_);
@@ -328,7 +330,7 @@ class MeshRun {
     }
     const SizeField* other = asked ? &*asked : nullptr;
     result_.sizeConformity = sizeConformity(result_.mesh, mesh_, prepared, other, coarsening_);
-    if (options_.sizingMesh) result_.sizingMesh = sizingMeshOf(mesh_, prepared, other, coarsening_);
+    if (sizing_ != nullptr) *sizing_ = sizingMeshOf(mesh_, prepared, other, coarsening_);
     result_.vertexSize = options_.fitSizes.value_or(false)
                              ? settledSizesAt(inputPositions_, mesh_, prepared, other, coarsening_)
                              : sizesAt(inputPositions_, mesh_, asked ? *asked : prepared.size, coarsening_);
@@ -343,6 +345,7 @@ class MeshRun {
   Part part_;
   double coarsening_;
   Progress& progress_;
+  SizingMesh* sizing_;       ///< Of the mesh that is kept; nullptr: nobody wants it.
   ChosenSizes sizes_;        ///< And what the last attempt was made of.
   PreparedSizes keptSizes_;  ///< Of the mesh that is kept.
 };
@@ -350,10 +353,10 @@ class MeshRun {
 }  // namespace
 
 Result<MeshResult> meshInspected(const TriangleMesh& input, InspectResult inspected, const MeshOptions& options,
-                                 Progress& progress) {
+                                 Progress& progress, SizingMesh* sizing) {
   MeshResult result;
   result.input = std::move(inspected);
-  return MeshRun(input, std::move(result), options, progress).run();
+  return MeshRun(input, std::move(result), options, progress, sizing).run();
 }
 
 }  // namespace qmcf

@@ -118,13 +118,14 @@ Result<FieldResult> computeField(const TriangleMesh& input, const MeshOptions& o
   return result;
 }
 
-Result<MeshResult> meshSurface(const TriangleMesh& input, const MeshOptions& options, Progress& progress) {
+Result<MeshResult> meshSurface(const TriangleMesh& input, const MeshOptions& options, Progress& progress,
+                               SizingMesh* sizing) {
   if (const auto error = validateOptions(options)) return *error;
   auto inspected = inspectSurface(input, options, progress);
   if (!inspected) return inspected.error();
   const auto own = optionsFor(input, inspected.value(), options);
   if (!own) return own.error();
-  return meshInspected(input, std::move(inspected).value(), own.value(), progress);
+  return meshInspected(input, std::move(inspected).value(), own.value(), progress, sizing);
 }
 
 }  // namespace qmcf

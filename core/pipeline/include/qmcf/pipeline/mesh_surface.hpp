@@ -58,8 +58,7 @@ struct MeshOptions {
   /// Faces worked on at a time, 1 to 256. Default: as many as the machine has hardware threads. The mesh does not
   /// depend on it. Ignored where the library is built without threads (WebAssembly).
   std::optional<std::int64_t> threads;
-  bool trace = false;       ///< Record how each face was meshed, step by step: MeshResult::trace.
-  bool sizingMesh = false;  ///< Keep the triangles that sizes are linear on: MeshResult::sizingMesh.
+  bool trace = false;  ///< Record how each face was meshed, step by step: MeshResult::trace.
 };
 
 /// How one face was meshed.
@@ -120,7 +119,6 @@ struct MeshResult {
   bool fittedSizes = false;        ///< Sizes vary to fit the field (MeshOptions::fitSizes), by 5 % at least.
   SizeSources sizing;              ///< How many vertices of the repaired input have another size than `size`, and why.
   std::vector<double> vertexSize;  ///< Per vertex of the input: the target edge length there.
-  std::optional<SizingMesh> sizingMesh;  ///< If it was asked for.
   std::int64_t refinedPlaces = 0;  ///< Where elements of the size asked for could not follow the part: smaller there.
   /// Faces that were not relaxed together with the others, across their edges, because they would not be valid then.
   std::int64_t heldFaces = 0;
@@ -133,8 +131,10 @@ struct MeshResult {
 Result<InspectResult> inspectSurface(const TriangleMesh& input, const MeshOptions& options, Progress& progress);
 /// Up to the cross field.
 Result<FieldResult> computeField(const TriangleMesh& input, const MeshOptions& options, Progress& progress);
-/// The whole way: a valid quad-dominant mesh of the input, or an error that says why there is none.
-Result<MeshResult> meshSurface(const TriangleMesh& input, const MeshOptions& options, Progress& progress);
+/// The whole way: a valid quad-dominant mesh of the input, or an error that says why there is none. sizing: gets the
+/// sizes that the mesh was made with, unless nullptr.
+Result<MeshResult> meshSurface(const TriangleMesh& input, const MeshOptions& options, Progress& progress,
+                               SizingMesh* sizing = nullptr);
 
 /// The error for the first option out of range, if any.
 std::optional<Error> validateOptions(const MeshOptions& options);
