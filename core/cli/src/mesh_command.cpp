@@ -70,7 +70,9 @@ int run(const MeshCommand& command) {
   }
   SizingMesh sizing;
   const bool wantsSizing = !command.sizingMesh.empty();
-  const Result<MeshResult> result = meshSurface(model.value().mesh, options, progress, wantsSizing ? &sizing : nullptr);
+  const TriangleMesh& triangles = model.value().mesh;
+  const Result<MeshResult> result =
+      wantsSizing ? meshWithSizing(triangles, options, progress, sizing) : meshSurface(triangles, options, progress);
   console.clear();
   if (!result.ok()) return fail(result.error(), command.input);
 
@@ -92,8 +94,8 @@ int run(const MeshCommand& command) {
     if (const std::optional<Error> error = writeFile(command.sizingOut, sizes)) return fail(*error);
   }
   if (wantsSizing) {
-    const std::string triangles = writeMesh(sizing.triangles, *outputFormatOf(command.sizingMesh));
-    if (const std::optional<Error> error = writeFile(command.sizingMesh, triangles)) return fail(*error);
+    const std::string text = writeMesh(sizing.triangles, *outputFormatOf(command.sizingMesh));
+    if (const std::optional<Error> error = writeFile(command.sizingMesh, text)) return fail(*error);
   }
   if (command.quiet) return kDone;
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;

@@ -118,14 +118,27 @@ Result<FieldResult> computeField(const TriangleMesh& input, const MeshOptions& o
   return result;
 }
 
-Result<MeshResult> meshSurface(const TriangleMesh& input, const MeshOptions& options, Progress& progress,
-                               SizingMesh* sizing) {
+namespace {
+
+Result<MeshResult> meshWhole(const TriangleMesh& input, const MeshOptions& options, Progress& progress,
+                             SizingMesh* sizing) {
   if (const auto error = validateOptions(options)) return *error;
   auto inspected = inspectSurface(input, options, progress);
   if (!inspected) return inspected.error();
   const auto own = optionsFor(input, inspected.value(), options);
   if (!own) return own.error();
   return meshInspected(input, std::move(inspected).value(), own.value(), progress, sizing);
+}
+
+}  // namespace
+
+Result<MeshResult> meshSurface(const TriangleMesh& input, const MeshOptions& options, Progress& progress) {
+  return meshWhole(input, options, progress, nullptr);
+}
+
+Result<MeshResult> meshWithSizing(const TriangleMesh& input, const MeshOptions& options, Progress& progress,
+                                  SizingMesh& sizing) {
+  return meshWhole(input, options, progress, &sizing);
 }
 
 }  // namespace qmcf

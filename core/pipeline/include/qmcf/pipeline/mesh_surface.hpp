@@ -131,10 +131,11 @@ struct MeshResult {
 Result<InspectResult> inspectSurface(const TriangleMesh& input, const MeshOptions& options, Progress& progress);
 /// Up to the cross field.
 Result<FieldResult> computeField(const TriangleMesh& input, const MeshOptions& options, Progress& progress);
-/// The whole way: a valid quad-dominant mesh of the input, or an error that says why there is none. sizing: gets the
-/// sizes that the mesh was made with, unless nullptr.
-Result<MeshResult> meshSurface(const TriangleMesh& input, const MeshOptions& options, Progress& progress,
-                               SizingMesh* sizing = nullptr);
+/// The whole way: a valid quad-dominant mesh of the input, or an error that says why there is none.
+Result<MeshResult> meshSurface(const TriangleMesh& input, const MeshOptions& options, Progress& progress);
+/// The same. sizing: gets the sizes that the mesh was made with.
+Result<MeshResult> meshWithSizing(const TriangleMesh& input, const MeshOptions& options, Progress& progress,
+                                  SizingMesh& sizing);
 
 /// The error for the first option out of range, if any.
 std::optional<Error> validateOptions(const MeshOptions& options);
