@@ -9,8 +9,8 @@
 namespace qmcf {
 namespace {
 
-/// Radians. A quadrilateral in such a corner has a scaled Jacobian below 0.56, and its neighbours are sheared.
-constexpr double kSharpest = 0.6;
+/// Radians. A quadrilateral in such a corner has a scaled Jacobian below 0.55, and its neighbours are sheared.
+constexpr double kSharpest = 0.58;
 
 bool isCorner(const Coedge& coedge) { return coedge.cornerQuads != 2; }
 

@@ -11,10 +11,10 @@ namespace qmcf {
 namespace {
 
 // Places are measured in divisions: the integral of ds / h, scaled such that the whole edge is `count`.
-constexpr double kReach = 0.5;       // How far a node may go from its equal part,
-constexpr double kStopReach = 0.65;  // and to a stop.
-constexpr double kShortest = 0.3;    // Of a division.
-constexpr int kSteps = 4;            // Places tried on each side of the equal part.
+constexpr double kReach = 0.5;      // How far a node may go from its equal part,
+constexpr double kStopReach = 0.7;  // and to a stop.
+constexpr double kShortest = 0.3;   // Of a division.
+constexpr int kSteps = 4;           // Places tried on each side of the equal part.
 /// A point of the polygon is tried when it turns by more than this; the sharpest ones of a part where there are many.
 constexpr double kLeastTurn = math::kPi / 18.0;
 constexpr std::size_t kMostCorners = 8;
