@@ -96,8 +96,10 @@ async function measureModel(part, options) {
     return { ...result, verdict: VERDICT_OF_EXIT[run.exit] ?? 'FAILED', message: `exit ${run.exit}: ${run.stderr.trim().split('\n').pop()}` };
   }
   const { valid, ...figures } = await judgeMesh(options, part, mesh);
-  if (options.sizes && options.judge) figures.sizeError = await judgeSizes(options, mesh, sizing);
-  const fault = ledgerFault(JSON.parse(readFileSync(report, 'utf8')).quality, readElements(mesh));
+  if (options.sizes) figures.sizeError = await judgeSizes(options, mesh, sizing);
+  const fault = options.sizes && figures.sizeError === null
+    ? 'sizes could not be judged'
+    : ledgerFault(JSON.parse(readFileSync(report, 'utf8')).quality, readElements(mesh));
   if (fault) figures.failing.push(fault);
   if (options.pictures) await drawMesh(part, mesh);
   return demand({ ...result, verdict: valid && !fault ? 'VALID' : 'INVALID', ...figures }, options.demands?.[model]);
@@ -145,6 +147,7 @@ async function main(args) {
     return 0;
   }
   if (!existsSync(options.qmcf)) throw new Error(`${options.qmcf}: not built; cmake --preset native && cmake --build --preset native`);
+  if (options.sizes && !options.judge) throw new Error('--sizes needs the judge');
   const models = findModels(options);
   if (models.length === 0) throw new Error('no models');
   mkdirSync(options.out, { recursive: true });

@@ -12,12 +12,9 @@ namespace {
 /// Radians. A quadrilateral in such a corner has a scaled Jacobian below 0.55, and its neighbours are sheared.
 constexpr double kSharpest = 0.58;
 
-bool isCorner(const Coedge& coedge) { return coedge.cornerQuads != 2; }
-
 bool isTip(const Coedge& coedge) { return coedge.cornerQuads == 1 && coedge.cornerAngle < kSharpest; }
 
-/// The coedges of a loop from corner to corner; empty without corners. The first side starts at the first coedge that
-/// `isFirst` holds for, if there is one.
+/// As sidesOf(), from the first coedge on that `isFirst` holds for; empty without one.
 template <class IsFirst>
 std::vector<std::vector<Coedge>> sidesFrom(const BrepLoop& loop, IsFirst isFirst) {
   std::vector<std::vector<Coedge>> sides;
@@ -38,9 +35,7 @@ std::vector<std::vector<Coedge>> sidesFrom(const BrepLoop& loop, IsFirst isFirst
 BrepFace withCorners(BrepFace face, std::int32_t corners) {
   constexpr double kMostObtuse = 2.8;  // Radians.
   if (face.loops.size() != 1) return face;
-  std::int32_t turn = 0;
-  for (const Coedge& coedge : face.loops[0].coedges) turn += 2 - coedge.cornerQuads;
-  for (; turn < corners; ++turn) {
+  for (std::int32_t turn = turnOf(face.loops[0]); turn < corners; ++turn) {
     Coedge* sharpest = nullptr;
     for (Coedge& coedge : face.loops[0].coedges) {
       if (isCorner(coedge) || !(coedge.cornerAngle < kMostObtuse)) continue;
@@ -62,6 +57,14 @@ bool isTinyTriangle(const BrepFace& face, const std::vector<double>& wanted) {
 }
 
 }  // namespace
+
+std::int32_t turnOf(const BrepLoop& loop) {
+  std::int32_t turn = 0;
+  for (const Coedge& coedge : loop.coedges) turn += 2 - coedge.cornerQuads;
+  return turn;
+}
+
+std::vector<std::vector<Coedge>> sidesOf(const BrepLoop& loop) { return sidesFrom(loop, isCorner); }
 
 double rowsAcross(const Brep& brep, const BrepFace& face, const std::vector<double>& wanted) {
   double length = 0.0;
@@ -91,7 +94,7 @@ std::optional<RowSides> taperedSides(const BrepFace& face) {
 
 std::optional<RowSides> fourSides(const Brep& brep, const BrepFace& face) {
   if (face.loops.size() != 1) return std::nullopt;
-  auto sides = sidesFrom(face.loops[0], isCorner);
+  auto sides = sidesOf(face.loops[0]);
   if (sides.size() != 4) return std::nullopt;
   std::array<double, 2> length{};
   for (std::size_t i = 0; i < 4; ++i) {

@@ -1,11 +1,21 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <vector>
 
 #include "qmcf/topology/brep.hpp"
 
 namespace qmcf {
+
+/// Other than two quadrilaterals at the first vertex of a coedge.
+inline bool isCorner(const Coedge& coedge) { return coedge.cornerQuads != 2; }
+
+/// The quarter turns along a loop, in total; 4 for a convex one.
+std::int32_t turnOf(const BrepLoop& loop);
+
+/// The coedges of a loop from corner to corner, from the first corner on; empty without corners.
+std::vector<std::vector<Coedge>> sidesOf(const BrepLoop& loop);
 
 /// As for meshStrip(): a face with fewer rows than this between its sides takes one.
 inline constexpr double kOneRow = 1.6;

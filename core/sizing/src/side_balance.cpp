@@ -28,16 +28,7 @@ struct Row {
   double weight = 1.0;  ///< Cost of a unit that the sum differs from the target by.
 };
 
-/// The quarter turns along a loop, in total; 4 for a convex one.
-std::int32_t turnOf(const BrepLoop& loop) {
-  std::int32_t turn = 0;
-  for (const Coedge& coedge : loop.coedges) turn += 2 - coedge.cornerQuads;
-  return turn;
-}
-
-bool isSmooth(const BrepLoop& loop) {
-  return std::all_of(loop.coedges.begin(), loop.coedges.end(), [](const Coedge& c) { return c.cornerQuads == 2; });
-}
+bool isSmooth(const BrepLoop& loop) { return std::none_of(loop.coedges.begin(), loop.coedges.end(), isCorner); }
 
 /// One outline with four corners more to the left than to the right, and holes with four more to the right.
 bool isRectilinear(const BrepFace& face) {
@@ -169,8 +160,8 @@ class RowFinder {
   /// The four sides of an outline and those of a hole one row inside: each is two elements longer than the other.
   void addFrame(const BrepFace& face) {
     const bool isFirst = turnOf(face.loops[0]) == 4;
-    const auto outer = sidesOf(face.loops[isFirst ? 0 : 1], 1);
-    const auto inner = sidesOf(face.loops[isFirst ? 1 : 0], 3);
+    const auto outer = fourSidesOf(face.loops[isFirst ? 0 : 1], 1);
+    const auto inner = fourSidesOf(face.loops[isFirst ? 1 : 0], 3);
     if (!outer || !inner) return;
     // The hole is run through the other way round. Its sides end where those of the outline start.
     double least = std::numeric_limits<double>::infinity();
@@ -191,8 +182,6 @@ class RowFinder {
       keepIfItCanMatch(take(2));
     }
   }
-
-  static bool isCorner(const Coedge& coedge) { return coedge.cornerQuads != 2; }
 
   /// A face of one row between a tip and another or an end: as many divisions on one side as on the other. Returns
   /// false for other faces.
@@ -247,21 +236,12 @@ class RowFinder {
     }
   }
 
-  /// The coedges between the four corners of a loop.
-  [[nodiscard]] static std::optional<std::array<std::vector<Coedge>, 4>> sidesOf(const BrepLoop& loop,
-                                                                                 std::int32_t cornerQuads) {
-    const auto first = std::find_if(loop.coedges.begin(), loop.coedges.end(), isCorner);
-    std::vector<Coedge> turned(first, loop.coedges.end());
-    turned.insert(turned.end(), loop.coedges.begin(), first);
-    std::array<std::vector<Coedge>, 4> sides;
-    std::size_t corners = 0;
-    for (const Coedge& coedge : turned) {
-      if (isCorner(coedge)) {
-        if (coedge.cornerQuads != cornerQuads || ++corners > 4) return std::nullopt;
-      }
-      sides[corners - 1].push_back(coedge);
-    }
-    if (corners != 4) return std::nullopt;
+  /// The sides between the four corners of a loop, so many quadrilaterals in each.
+  [[nodiscard]] static std::optional<std::vector<std::vector<Coedge>>> fourSidesOf(const BrepLoop& loop,
+                                                                                   std::int32_t cornerQuads) {
+    std::vector<std::vector<Coedge>> sides = sidesOf(loop);
+    const auto fits = [=](const std::vector<Coedge>& side) { return side.front().cornerQuads == cornerQuads; };
+    if (sides.size() != 4 || !std::all_of(sides.begin(), sides.end(), fits)) return std::nullopt;
     return sides;
   }
 

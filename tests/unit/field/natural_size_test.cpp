@@ -17,13 +17,17 @@ namespace {
 
 using testing::solve;
 
+template <class T>
+T valueOf(Result<T> result) {
+  EXPECT_TRUE(result.ok());
+  return std::move(result).value();
+}
+
 std::vector<IdMap<VertexId, double>> sizesOf(const std::vector<Patch>& patches) {
   SilentProgress progress;
   std::vector<CrossField> fields;
   for (const Patch& patch : patches) fields.push_back(solve(patch));
-  auto sizes = naturalSizes(patches, fields, progress);
-  EXPECT_TRUE(sizes.ok());
-  return std::move(sizes).value();
+  return valueOf(naturalSizes(patches, fields, progress));
 }
 
 double radiusOf(const Patch& patch, VertexId v) { return norm(patch.surface.position(v)); }
@@ -108,16 +112,12 @@ TEST(NaturalSize, LeavesNoRowToEndInABend) {
 
 IdMap<VertexId, double> spread(const Patch& patch) {
   SilentProgress progress;
-  auto sizes = spreadSizes(patch, progress);
-  EXPECT_TRUE(sizes.ok());
-  return std::move(sizes).value();
+  return valueOf(spreadSizes(patch, progress));
 }
 
 IdMap<VertexId, double> turned(const Patch& patch, const CrossField& field) {
   SilentProgress progress;
-  auto sizes = turnedSizes(patch, field, progress);
-  EXPECT_TRUE(sizes.ok());
-  return std::move(sizes).value();
+  return valueOf(turnedSizes(patch, field, progress));
 }
 
 TEST(SpreadSizes, KeepWhatRowsCanFollowAlready) {
@@ -182,31 +182,9 @@ TEST(TurnedSizes, AreSmallestAroundPositiveSingularities) {
   }
 }
 
-/// The patch's own triangulation as a mesh of it.
-FaceMesh trianglesOf(const Patch& patch) {
-  FaceMesh mesh;
-  const Surface& surface = patch.surface;
-  for (const VertexId v : surface.vertices()) {
-    const HalfedgeId h = surface.outgoing(v);
-    SurfacePoint location{Surface::triangle(h), {0.0, 0.0, 0.0}};
-    location.barycentric[static_cast<std::size_t>(h.value % 3)] = 1.0;
-    mesh.positions.push_back(surface.position(v));
-    mesh.normals.push_back(patch.normal[v]);
-    mesh.locations.push_back(location);
-    mesh.patchVertex.push_back(surface.isBoundary(v) ? v.value : kNone);
-  }
-  for (const TriangleId t : surface.triangles()) {
-    const auto corners = surface.corners(t);
-    mesh.elements.push_back({corners[0].value, corners[1].value, corners[2].value, kNone});
-  }
-  return mesh;
-}
-
 IdMap<VertexId, double> madeSizes(const Patch& patch, const FaceMesh& mesh) {
   SilentProgress progress;
-  auto sizes = sizesOfMesh(patch, mesh, progress);
-  EXPECT_TRUE(sizes.ok());
-  return std::move(sizes).value();
+  return valueOf(sizesOfMesh(patch, mesh, progress));
 }
 
 TEST(SizedEdges, TellTheLengthOfEachEdgeOnce) {

@@ -44,9 +44,10 @@ struct SizedEdge {
 std::vector<SizedEdge> sizedEdges(const Patch& patch, const FaceMesh& mesh);
 
 /// The patch's sizes as a mesh of it came out: times exp(s), the s that is 0 on the boundary and minimises
-/// the sum of (s - log)^2 size^2 / 2 over the mesh's edges (sizedEdges()), taken at their ends, and the integral of
-/// size^2 |grad(s)|^2, bent to stay within 0.3 either way. Of a patch without a boundary only what varies counts: log
-/// less its mean. E7 of docs/algorithm.md. Returns h per vertex. Errors: cancelled, internal (factorisation failed).
+/// the sum of (s - log)^2 size^2 / 2 over the mesh's edges (sizedEdges(), log within 1 either way), taken at their
+/// ends, and the integral of size^2 |grad(s)|^2, bent to stay within 0.3 either way. Of a patch without a boundary only
+/// what varies counts: log less its mean. E7 of docs/algorithm.md. Returns h per vertex. Errors: cancelled, internal
+/// (factorisation failed).
 Result<IdMap<VertexId, double>> sizesOfMesh(const Patch& patch, const FaceMesh& mesh, Progress& progress);
 
 /// How many rows of elements are to be expected to end inside the patches if these have the sizes h = patch.size *

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "qmcf/base/vec.hpp"
+#include "qmcf/mesh/patch.hpp"
 #include "qmcf/mesh/quad_mesh.hpp"
 #include "qmcf/mesh/surface.hpp"
 
@@ -18,6 +19,9 @@ struct FaceMesh {
   std::vector<std::int32_t> patchVertex;  ///< Boundary vertex of the patch, which is fixed; kNone inside.
   std::vector<Element> elements;
 };
+
+/// The triangles of a patch as a mesh of it.
+FaceMesh trianglesOf(const Patch& patch);
 
 /// Each edge of the mesh once: its ends, the lower one first, in ascending order.
 std::vector<std::array<std::int32_t, 2>> edgesOf(const FaceMesh& mesh);
