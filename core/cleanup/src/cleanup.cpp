@@ -46,6 +46,41 @@ std::int64_t cutInverted(EditMesh& mesh) {
   return cuts;
 }
 
+/// Twice the area vector of a triangle over the sum of its squared sides, at most 0.29 long.
+Vec3 directedShape(const Vec3& a, const Vec3& b, const Vec3& c) {
+  const double squares = squaredNorm(b - a) + squaredNorm(c - b) + squaredNorm(a - c);
+  return squares > 0.0 ? cross(b - a, c - a) / squares : Vec3{};
+}
+
+/// Cuts quads that no solver takes into two triangles that one does, whatever the normals say: where the outline turns
+/// back within a triangle of the part, they face against it. Returns how many.
+std::int64_t cutUnusable(EditMesh& mesh) {
+  constexpr double kLeast = 1e-3;
+  std::int64_t cuts = 0;
+  const std::size_t faces = mesh.faceCapacity();
+  for (std::size_t i = 0; i < faces; ++i) {
+    const FaceId f(i);
+    if (mesh.kind(f) == FaceKind::removed || mesh.cornerCount(f) != 4 || !isDegenerate(mesh, f)) continue;
+    const auto sides = mesh.sides(f);
+    const auto place = [&](std::size_t c) -> const Vec3& { return mesh.position(mesh.origin(sides[c % 4])); };
+    double best = kLeast;
+    std::size_t from = 4;
+    for (std::size_t c = 0; c < 2; ++c) {
+      if (mesh.connected(mesh.origin(sides[c]), mesh.origin(sides[c + 2]))) continue;
+      const Vec3 one = directedShape(place(c), place(c + 1), place(c + 2));
+      const Vec3 other = directedShape(place(c), place(c + 2), place(c + 3));
+      const double worse = std::min(norm(one), norm(other));
+      if (!(dot(one, other) > 0.0) || worse <= best) continue;
+      best = worse;
+      from = c;
+    }
+    if (from == 4) continue;
+    mesh.cut(sides[from], sides[from + 2]);
+    ++cuts;
+  }
+  return cuts;
+}
+
 /// Per vertex, the elements that make it regular. The mesh's numbers are its own: patchVertex tells the patch's.
 std::vector<std::int32_t> wantedElements(const FaceMesh& mesh, const EditMesh& work, const Patch& patch) {
   constexpr std::int32_t kInsideEdge = 2;
@@ -105,6 +140,7 @@ Result<CleanupResult> cleanUp(const FaceMesh& mesh, const Patch& patch, const Tr
   const std::int64_t turnedOver = untangle(work, where, options.quadsOnly);
   const std::int64_t cuts = options.quadsOnly ? 0 : cutInverted(work);
   if (cuts > 0) untangle(work, where, options.quadsOnly);
+  const std::int64_t unusable = options.quadsOnly ? 0 : cutUnusable(work);
   work.commit();
   CleanupResult result{extract(work, mesh.patchVertex), topology.statistics(), 1.0, {}, {}};
   for (std::size_t v = 0; v < work.vertexCapacity(); ++v) {
@@ -112,7 +148,7 @@ Result<CleanupResult> cleanUp(const FaceMesh& mesh, const Patch& patch, const Tr
     if (work.alive(VertexId(v))) result.before.push_back(isNew ? kNone : static_cast<std::int32_t>(v));
   }
   result.statistics.turnedOver = turnedOver;
-  result.statistics.cuts = cuts;
+  result.statistics.cuts = cuts + unusable;
   std::int32_t element = 0;
   for (std::size_t i = 0; i < work.faceCapacity(); ++i) {
     if (work.kind(FaceId(i)) == FaceKind::removed) continue;

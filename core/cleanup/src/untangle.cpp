@@ -120,6 +120,7 @@ std::int64_t untangle(EditMesh& mesh, const RelaxationTarget& target, bool quads
   std::int64_t found = 0;
   std::int64_t before = 0;  // Elements turned over, one sweep and two sweeps ago.
   std::int64_t earlier = 0;
+  const bool mendsQuads = quadsOnly || target.part != nullptr;
   const std::int64_t mostMended = kFewQuads + static_cast<std::int64_t>(mesh.faceCapacity()) / kElementsPerMended;
   for (int sweep = 0; sweep < kSweeps; ++sweep) {
     std::int64_t turnedOver = 0;
@@ -147,11 +148,8 @@ std::int64_t untangle(EditMesh& mesh, const RelaxationTarget& target, bool quads
     }
     mesh.commit();
     if (sweep < kWiderSweep) continue;
-    if (!quadsOnly) {
-      helped = mendTriangles(mesh, target) || helped;
-    } else if (turnedOver <= mostMended) {
-      helped = mendQuads(mesh, target) || helped;
-    }
+    if (!quadsOnly) helped = mendTriangles(mesh, target) || helped;
+    if (mendsQuads && turnedOver <= mostMended) helped = mendQuads(mesh, target) || helped;
     if (!helped) break;
   }
   if (quadsOnly) straighten(mesh, target);

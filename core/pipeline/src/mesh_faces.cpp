@@ -231,4 +231,24 @@ Result<CutFace> cutFace(const Part& part, const PreparedFaces& prepared, const T
   return result;
 }
 
+Result<MeshedFace> mendFace(const Part& part, const PreparedFaces& prepared, const TriangleBvh& whole, MeshedFace face,
+                            Progress& progress) {
+  const auto f = static_cast<std::size_t>(face.report.face);
+  std::optional<TraceRecorder> recorder;
+  if (part.traceScale) recorder.emplace(face.trace, *part.traceScale);
+  const WholePart around{whole, part.brep.faces[f].triangles};
+  CleanupOptions options;
+  options.topology = false;
+  options.sweeps = 0;
+  options.part = &around;
+  auto mended = cleanUp(face.mesh, prepared.patches[f], part.faceTrees[f], options, progress,
+                        recorder ? &*recorder : nullptr, TraceKind::cleanup);
+  if (!mended) return mended.error();
+  if (!mended.value().degenerate.empty()) return face;
+  face.mesh = std::move(mended.value().mesh);
+  assert(ledgerCloses(face.mesh, part, face.report.face));
+  count(face.report, face.mesh);
+  return face;
+}
+
 }  // namespace qmcf

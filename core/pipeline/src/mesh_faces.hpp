@@ -54,4 +54,9 @@ SharedFace shareCut(const CutFace& face, const PreparedFaces& prepared, const Sh
 Result<CutFace> cutFace(const Part& part, const PreparedFaces& prepared, const TriangleBvh& whole,
                         const MeshedFace& face, const SharedNodes& halved, Progress& progress);
 
+/// Turns back elements of a face that the check against the part finds turned over, as far as moving vertices and
+/// changing connections can. whole: the tree over all triangles of the part. The history goes on. Errors: cancelled.
+Result<MeshedFace> mendFace(const Part& part, const PreparedFaces& prepared, const TriangleBvh& whole, MeshedFace face,
+                            Progress& progress);
+
 }  // namespace qmcf

@@ -217,10 +217,51 @@ class MeshRun {
     return forEachFace(part_, trial, uncut, progress_, cut);
   }
 
+  /// The elements for which a joined mesh is not valid, with half their lengths.
+  static std::vector<SizeLimit> faultsOf(const Attempt& made) { return halvedWhereInvalid(made.mesh, made.quality); }
+
+  /// The faces' meshes as one. Where that is not valid, elements that are turned over are turned back in the faces'
+  /// meshes; with quadrilaterals only that has been done already.
+  Result<Attempt> attempt() {
+    auto first = joinHolding();
+    if (!first || options_.allQuad) return first;
+    const std::vector<SizeLimit> faults = faultsOf(first.value());
+    const std::vector<std::int32_t> faces = facesToMend(faults);
+    if (faces.empty()) return first;
+    if (const auto error = mendFaces(faces)) return *error;
+    auto second = joinHolding();
+    return !second || faultsOf(second.value()).size() < faults.size() ? std::move(second) : std::move(first);
+  }
+
+  /// The faces of these places, ascending, without those that are made of the part's own triangles.
+  [[nodiscard]] std::vector<std::int32_t> facesToMend(const std::vector<SizeLimit>& faults) const {
+    std::vector<std::int32_t> faces;
+    for (const SizeLimit& fault : faults) {
+      const bool isGiven = sizes_.trial.prepared.given[static_cast<std::size_t>(fault.face)] != Given::nothing;
+      if (!isGiven) faces.push_back(fault.face);
+    }
+    std::sort(faces.begin(), faces.end());
+    faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+    return faces;
+  }
+
+  /// Turns back what is turned over in the meshes of these faces.
+  std::optional<Error> mendFaces(const std::vector<std::int32_t>& faces) {
+    Trial& trial = sizes_.trial;
+    const TriangleBvh whole(mesh_.positions, mesh_.triangles);
+    const auto mend = [&](std::int32_t face, Progress& progress) -> std::optional<Error> {
+      MeshedFace& meshed = trial.faces[static_cast<std::size_t>(face)];
+      auto mended = mendFace(part_, trial.prepared, whole, meshed, progress);
+      if (!mended) return mended.error();
+      meshed = std::move(mended).value();
+      return std::nullopt;
+    };
+    return forEachFace(part_, trial, faces, progress_, mend);
+  }
+
   /// The faces' meshes as one, relaxed together. Places that this would cost their validity are held, then their faces,
   /// in the end all.
-  Result<Attempt> attempt() {
-    const auto faultsOf = [](const Attempt& made) { return halvedWhereInvalid(made.mesh, made.quality); };
+  Result<Attempt> joinHolding() {
     Held held;
     held.places.resize(brep_.faces.size());
     // The part's own triangles are where they belong.

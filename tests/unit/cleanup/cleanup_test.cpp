@@ -252,6 +252,44 @@ TEST(CleanUp, MendsTheSameWherePartAndFaceAreOne) {
   EXPECT_EQ(checked.mesh.positions, alone.mesh.positions);
 }
 
+TEST(CleanUp, ChangesConnectionsBeforeItCutsWhereTheCheckAgainstThePartIsKnown) {
+  const Patch patch = testing::makeSquare(6);
+  const TriangleBvh tree = surfaceTree(patch.surface);
+  const FaceMesh mesh = gridWithDoublet(patch);
+  CleanupOptions options;
+  options.topology = false;
+  const CleanupResult cut = clean(mesh, patch, options);
+  EXPECT_GT(cut.statistics.cuts, 0);
+  std::vector<std::int32_t> triangleOf(patch.surface.triangleCount());
+  std::iota(triangleOf.begin(), triangleOf.end(), 0);
+  const WholePart whole{tree, triangleOf};
+  options.part = &whole;
+  const CleanupResult mended = clean(mesh, patch, options);
+  EXPECT_TRUE(mended.degenerate.empty());
+  EXPECT_EQ(mended.statistics.cuts, 0);
+  for (const Element& element : mended.mesh.elements) EXPECT_EQ(cornerCount(element), 4U);
+}
+
+TEST(CleanUp, CutsAStraightCornerWhateverTheNormalsSay) {
+  // Where the outline turns back, the smooth normals face against a triangle of the part itself.
+  Patch patch = testing::makeSquare(2);
+  for (const VertexId v : patch.surface.vertices()) patch.normal[v] = {0, 0, -1};
+  FaceMesh mesh = testing::gridMesh(patch, 2);
+  // The two quads at the bottom as one with a straight corner and two triangles beside it.
+  const Element left = mesh.elements[0];
+  const Element right = mesh.elements[1];
+  mesh.elements[0] = {left[0], left[1], right[1], left[2]};
+  mesh.elements[1] = {left[0], left[2], left[3], kNone};
+  mesh.elements.push_back({right[1], right[2], right[3], kNone});
+  CleanupOptions options;
+  options.topology = false;
+  options.sweeps = 0;
+  const CleanupResult result = clean(mesh, patch, options);
+  EXPECT_TRUE(result.degenerate.empty());
+  EXPECT_EQ(result.statistics.cuts, 1);
+  EXPECT_EQ(result.mesh.elements.size(), mesh.elements.size() + 1);
+}
+
 TEST(CleanUp, KeepsThinHandles) {
   // On a ring of a few elements around, a region of three or four of them can wind around it; filled like a disc, it
   // would close the hole.

@@ -8,10 +8,12 @@
 #include <functional>
 #include <numbers>
 #include <optional>
+#include <tuple>
 #include <utility>
 
 #include "front/trace_replay.hpp"
 #include "qmcf/base/math.hpp"
+#include "qmcf/base/random.hpp"
 #include "qmcf/pipeline/report_json.hpp"
 #include "topology/shapes.hpp"
 
@@ -203,6 +205,30 @@ TEST(MeshSurface, PutsSmallerElementsWhereLargeOnesCanNotFollow) {
   }
   EXPECT_LT(shortest, 0.6 * result.size);
   EXPECT_EQ(mesh(shapes::cubeSoup(1), 600).refinedPlaces, 0);
+}
+
+/// A square of cells x cells with a side of that many units whose vertices are up to `height` off its plane, by lot.
+TriangleMesh crumpledSheet(int cells, double height, std::uint64_t seed) {
+  Random random(seed);
+  return shapes::moved(shapes::square(cells), [&](const Vec3& p) {
+    return Vec3{p.x * cells, p.y * cells, random.uniform(-height, height)};
+  });
+}
+
+TEST(MeshSurface, TurnsElementsBackBeforeItGivesAFaceUp) {
+  // Without creases, a few elements fall over in the folds; each of these meshes has some before they are mended, and
+  // is made of the part's own triangles if they are not.
+  SilentProgress silent;
+  MeshOptions options;
+  options.featureAngle = 179.0;
+  for (const auto& [height, quads, seed] : {std::tuple{1.0, 150, 9U}, {1.3, 400, 2U}}) {
+    options.quads = quads;
+    const auto result = meshSurface(crumpledSheet(12, height, seed), options, silent);
+    ASSERT_TRUE(result.ok());
+    EXPECT_TRUE(result.value().quality.valid) << seed;
+    ASSERT_EQ(result.value().faces.size(), 1U);
+    EXPECT_EQ(result.value().faces.front().method, "qmcf") << seed;
+  }
 }
 
 TEST(MeshSurface, CoversARingThatTheSizeAskedForMisses) {
