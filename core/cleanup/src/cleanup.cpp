@@ -17,39 +17,44 @@ constexpr double kHopeless = 0.05;
 constexpr double kPoor = 0.15;
 constexpr double kGain = 0.15;
 
+/// Cuts a quad along the better diagonal, if that is worth more than `least`. worth(a, b, c, d): of the cut between a
+/// and c. Returns whether it was cut.
+template <class Worth>
+bool cutInTwo(EditMesh& mesh, FaceId f, double least, Worth worth) {
+  const auto sides = mesh.sides(f);
+  const auto corner = [&](std::size_t c) { return mesh.origin(sides[c % 4]); };
+  double best = least;
+  std::size_t from = 4;
+  for (std::size_t c = 0; c < 2; ++c) {
+    if (mesh.connected(corner(c), corner(c + 2))) continue;
+    const double here = worth(corner(c), corner(c + 1), corner(c + 2), corner(c + 3));
+    if (here <= best) continue;
+    best = here;
+    from = c;
+  }
+  if (from == 4) return false;
+  mesh.cut(sides[from], sides[from + 2]);
+  return true;
+}
+
+bool isQuad(const EditMesh& mesh, FaceId f) { return mesh.kind(f) != FaceKind::removed && mesh.cornerCount(f) == 4; }
+
 /// Cuts quads that are turned over at a corner, or nearly, into triangles that are not. Returns how many.
 std::int64_t cutInverted(EditMesh& mesh) {
   std::int64_t cuts = 0;
   const std::size_t faces = mesh.faceCapacity();
+  const auto worseTriangle = [&](VertexId a, VertexId b, VertexId c, VertexId d) {
+    return std::min(triangleShape(mesh, a, b, c), triangleShape(mesh, a, c, d));
+  };
   for (std::size_t i = 0; i < faces; ++i) {
     const FaceId f(i);
-    if (mesh.kind(f) == FaceKind::removed || mesh.cornerCount(f) != 4) continue;
+    if (!isQuad(mesh, f)) continue;
     const double shape = faceShape(mesh, f);
     const bool isHopeless = isInverted(mesh, f) || !(shape >= kHopeless);
     if (!isHopeless && shape >= kPoor) continue;
-    const auto sides = mesh.sides(f);
-    const auto corner = [&](std::size_t c) { return mesh.origin(sides[c % 4]); };
-    double best = isHopeless ? 0.0 : shape + kGain;
-    std::size_t from = 4;
-    for (std::size_t c = 0; c < 2; ++c) {
-      if (mesh.connected(corner(c), corner(c + 2))) continue;
-      const double worse = std::min(triangleShape(mesh, corner(c), corner(c + 1), corner(c + 2)),
-                                    triangleShape(mesh, corner(c), corner(c + 2), corner(c + 3)));
-      if (worse <= best) continue;
-      best = worse;
-      from = c;
-    }
-    if (from == 4) continue;
-    mesh.cut(sides[from], sides[from + 2]);
-    ++cuts;
+    cuts += cutInTwo(mesh, f, isHopeless ? 0.0 : shape + kGain, worseTriangle) ? 1 : 0;
   }
   return cuts;
-}
-
-/// Twice the area vector of a triangle over the sum of its squared sides, at most 0.29 long.
-Vec3 directedShape(const Vec3& a, const Vec3& b, const Vec3& c) {
-  const double squares = squaredNorm(b - a) + squaredNorm(c - b) + squaredNorm(a - c);
-  return squares > 0.0 ? cross(b - a, c - a) / squares : Vec3{};
 }
 
 /// Cuts quads that no solver takes into two triangles that one does, whatever the normals say: where the outline turns
@@ -58,25 +63,22 @@ std::int64_t cutUnusable(EditMesh& mesh) {
   constexpr double kLeast = 1e-3;
   std::int64_t cuts = 0;
   const std::size_t faces = mesh.faceCapacity();
+  // Twice the area vector over the sum of the squared sides, at most 0.29 long.
+  const auto directed = [&](VertexId a, VertexId b, VertexId c) {
+    const Vec3 ab = mesh.position(b) - mesh.position(a);
+    const Vec3 ac = mesh.position(c) - mesh.position(a);
+    const double squares = squaredNorm(ab) + squaredNorm(ac) + squaredNorm(ac - ab);
+    return squares > 0.0 ? cross(ab, ac) / squares : Vec3{};
+  };
+  const auto smallerArea = [&](VertexId a, VertexId b, VertexId c, VertexId d) {
+    const Vec3 one = directed(a, b, c);
+    const Vec3 other = directed(a, c, d);
+    return dot(one, other) > 0.0 ? std::min(norm(one), norm(other)) : 0.0;
+  };
   for (std::size_t i = 0; i < faces; ++i) {
     const FaceId f(i);
-    if (mesh.kind(f) == FaceKind::removed || mesh.cornerCount(f) != 4 || !isDegenerate(mesh, f)) continue;
-    const auto sides = mesh.sides(f);
-    const auto place = [&](std::size_t c) -> const Vec3& { return mesh.position(mesh.origin(sides[c % 4])); };
-    double best = kLeast;
-    std::size_t from = 4;
-    for (std::size_t c = 0; c < 2; ++c) {
-      if (mesh.connected(mesh.origin(sides[c]), mesh.origin(sides[c + 2]))) continue;
-      const Vec3 one = directedShape(place(c), place(c + 1), place(c + 2));
-      const Vec3 other = directedShape(place(c), place(c + 2), place(c + 3));
-      const double worse = std::min(norm(one), norm(other));
-      if (!(dot(one, other) > 0.0) || worse <= best) continue;
-      best = worse;
-      from = c;
-    }
-    if (from == 4) continue;
-    mesh.cut(sides[from], sides[from + 2]);
-    ++cuts;
+    if (!isQuad(mesh, f) || !isDegenerate(mesh, f)) continue;
+    cuts += cutInTwo(mesh, f, kLeast, smallerArea) ? 1 : 0;
   }
   return cuts;
 }

@@ -231,11 +231,12 @@ Result<CutFace> cutFace(const Part& part, const PreparedFaces& prepared, const T
   return result;
 }
 
-Result<MeshedFace> mendFace(const Part& part, const PreparedFaces& prepared, const TriangleBvh& whole, MeshedFace face,
-                            Progress& progress) {
+Result<MeshedFace> mendFace(const Part& part, const PreparedFaces& prepared, const TriangleBvh& whole,
+                            const MeshedFace& face, Progress& progress) {
   const auto f = static_cast<std::size_t>(face.report.face);
+  MeshedFace result = face;
   std::optional<TraceRecorder> recorder;
-  if (part.traceScale) recorder.emplace(face.trace, *part.traceScale);
+  if (part.traceScale) recorder.emplace(result.trace, *part.traceScale);
   const WholePart around{whole, part.brep.faces[f].triangles};
   CleanupOptions options;
   options.topology = false;
@@ -245,10 +246,10 @@ Result<MeshedFace> mendFace(const Part& part, const PreparedFaces& prepared, con
                         recorder ? &*recorder : nullptr, TraceKind::cleanup);
   if (!mended) return mended.error();
   if (!mended.value().degenerate.empty()) return face;
-  face.mesh = std::move(mended.value().mesh);
-  assert(ledgerCloses(face.mesh, part, face.report.face));
-  count(face.report, face.mesh);
-  return face;
+  result.mesh = std::move(mended.value().mesh);
+  assert(ledgerCloses(result.mesh, part, face.report.face));
+  count(result.report, result.mesh);
+  return result;
 }
 
 }  // namespace qmcf

@@ -55,8 +55,9 @@ Result<CutFace> cutFace(const Part& part, const PreparedFaces& prepared, const T
                         const MeshedFace& face, const SharedNodes& halved, Progress& progress);
 
 /// Turns back elements of a face that the check against the part finds turned over, as far as moving vertices and
-/// changing connections can. whole: the tree over all triangles of the part. The history goes on. Errors: cancelled.
-Result<MeshedFace> mendFace(const Part& part, const PreparedFaces& prepared, const TriangleBvh& whole, MeshedFace face,
-                            Progress& progress);
+/// changing connections can; the face as it is, if that would leave an element that no solver takes. whole: the tree
+/// over all triangles of the part. The history goes on. Errors: cancelled.
+Result<MeshedFace> mendFace(const Part& part, const PreparedFaces& prepared, const TriangleBvh& whole,
+                            const MeshedFace& face, Progress& progress);
 
 }  // namespace qmcf

@@ -29,6 +29,18 @@ MeshResult mesh(const TriangleMesh& part, std::int64_t quads) {
   return std::move(result).value();
 }
 
+/// That the history of each face ends with as many elements as its report tells.
+void expectReplayed(const MeshResult& result) {
+  const MeshTrace& trace = *result.trace;
+  ASSERT_EQ(trace.faces.size(), result.faces.size());
+  for (std::size_t f = 0; f < trace.faces.size(); ++f) {
+    testing::TraceReplay replay;
+    for (const TraceStep& step : trace.faces[f].steps) replay.apply(step);
+    EXPECT_EQ(replay.count(true), result.faces[f].quads);
+    EXPECT_EQ(replay.count(false), result.faces[f].triangles);
+  }
+}
+
 void expectGood(const MeshResult& result) {
   EXPECT_TRUE(result.quality.valid);
   for (const ValidityCheck& check : result.quality.checks) {
@@ -223,11 +235,13 @@ TEST(MeshSurface, TurnsElementsBackBeforeItGivesAFaceUp) {
   options.featureAngle = 179.0;
   for (const auto& [height, quads, seed] : {std::tuple{1.0, 150, 9U}, {1.3, 400, 2U}}) {
     options.quads = quads;
+    options.trace = quads < 200;
     const auto result = meshSurface(crumpledSheet(12, height, seed), options, silent);
     ASSERT_TRUE(result.ok());
     EXPECT_TRUE(result.value().quality.valid) << seed;
     ASSERT_EQ(result.value().faces.size(), 1U);
     EXPECT_EQ(result.value().faces.front().method, "qmcf") << seed;
+    if (options.trace) expectReplayed(result.value());
   }
 }
 
@@ -364,14 +378,7 @@ TEST(MeshSurface, RecordsHowEachFaceWasMeshed) {
       EXPECT_FALSE(plain.value().trace.has_value());
       EXPECT_EQ(toJson(traced.value()), toJson(plain.value()));
       EXPECT_EQ(traceJson(again.value()), traceJson(traced.value()));
-      const MeshTrace& trace = *traced.value().trace;
-      ASSERT_EQ(trace.faces.size(), traced.value().faces.size());
-      for (std::size_t f = 0; f < trace.faces.size(); ++f) {
-        testing::TraceReplay replay;
-        for (const TraceStep& step : trace.faces[f].steps) replay.apply(step);
-        EXPECT_EQ(replay.count(true), traced.value().faces[f].quads);
-        EXPECT_EQ(replay.count(false), traced.value().faces[f].triangles);
-      }
+      expectReplayed(traced.value());
     }
   }
 }
