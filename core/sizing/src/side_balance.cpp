@@ -365,6 +365,19 @@ class Balance {
     }
   }
 
+  /// What it costs to make a change twice; infinity if that is not allowed.
+  [[nodiscard]] double costOfTwo(const Change& change) const {
+    const EdgeCount& edge = edges_[at(change.edge)];
+    const std::int32_t count = edge.count + 2 * change.by;
+    if (count < edge.least) return std::numeric_limits<double>::infinity();
+    double cost = departure(edge, count) - departure(edge, edge.count);
+    for (const Term& term : terms_[at(change.edge)]) {
+      const std::int32_t after = value_[term.row] + 2 * change.by * term.factor;
+      cost += rows_[term.row].weight * (std::abs(after) - std::abs(value_[term.row]));
+    }
+    return cost;
+  }
+
   /// What two changes do to the mismatch of a face.
   [[nodiscard]] double costIn(std::int32_t face, const Change& a, const Change& b) const {
     double cost = 0.0;
@@ -413,7 +426,8 @@ class Balance {
     return std::adjacent_find(passed_.begin(), passed_.end()) == passed_.end();
   }
 
-  /// Applies the best closed walk that starts in `face` and lowers the cost.
+  /// Applies the best change that lowers the cost: a closed walk that starts in `face`, or one of its edges by two,
+  /// which leaves the parity of both faces beside it as it is.
   bool improve(std::int32_t face) {
     double best = -kLeastGain;
     std::vector<Change> bestWalk;
@@ -421,6 +435,9 @@ class Balance {
       for (const std::int32_t by : {-1, 1}) {
         const Change last{edge, by};
         if (allowed(last)) search(face, last, best, bestWalk);
+        if (costOfTwo(last) >= best) continue;
+        best = costOfTwo(last);
+        bestWalk = {last, last};
       }
     }
     for (const Change& change : bestWalk) {

@@ -188,6 +188,22 @@ TEST(DivideEdges, RimsOfANarrowRingAgreeAndThoseOfAWideOneNeedNot) {
   EXPECT_GT(std::max(divisions(wide, 0), divisions(wide, 1)), 3 * std::min(divisions(wide, 0), divisions(wide, 1)));
 }
 
+TEST(DivideEdges, RimsAgreeBetweenFacesWithNoOtherEdge) {
+  // A flat frustum: the disks at both ends are bounded by one rim each, which can only change by two.
+  constexpr std::int32_t kSegments = 96;
+  TriangleMesh frustum = parts::annulus(kSegments, 1.0, 1.5);
+  for (std::int32_t i = 0; i < kSegments; ++i) frustum.positions[static_cast<std::size_t>(i)].z = 0.6;
+  for (std::int32_t i = 1; i + 1 < kSegments; ++i) {
+    frustum.triangles.push_back({0, i, i + 1});
+    frustum.triangles.push_back({kSegments, kSegments + i + 1, kSegments + i});
+  }
+  const Divided d = divide(frustum, 0.75);
+  ASSERT_EQ(d.brep.faces.size(), 3U);
+  ASSERT_EQ(d.edges.edges.size(), 2U);
+  EXPECT_EQ(d.edges.oddFaces, 0);
+  EXPECT_EQ(divisions(d, 0), divisions(d, 1));
+}
+
 /// Divisions of the edges that run along x at height y, in sum.
 std::int64_t divisionsAt(const Divided& d, double y) {
   std::int64_t sum = 0;
