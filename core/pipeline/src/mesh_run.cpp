@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <map>
 #include <optional>
 #include <utility>
 
@@ -29,7 +30,7 @@ constexpr double kFewElements = 300.0;
 /// What is held where relaxing all together leaves elements that are not valid: at first what is so many elements away
 /// from these, then their faces, then all.
 constexpr std::array<double, 2> kHeldElements{3.0, 6.0};
-constexpr std::size_t kMaxHolds = kHeldElements.size() + 2;
+constexpr std::size_t kMaxHolds = kHeldElements.size() + 1;
 /// How often faces are made of the part's own triangles before a mesh is given up.
 constexpr int kMaxGivenRounds = 5;
 constexpr std::size_t kMostGiven = 10000;  ///< Triangles of such a face, besides twice the elements.
@@ -38,6 +39,16 @@ void turnRound(FaceMesh& mesh) {
   for (Element& element : mesh.elements) {
     std::swap(element[1], element[cornerCount(element) - 1]);
   }
+}
+
+/// Whether each of the faces that have a limit has one for at least half of its elements.
+bool areMostlyAtFault(const std::vector<SizeLimit>& limits, const QuadMesh& mesh) {
+  std::map<std::int32_t, std::int64_t> surplus;  // Per face: twice its limits less its elements.
+  for (const SizeLimit& limit : limits) surplus[limit.face] += 2;
+  for (const std::int32_t face : mesh.elementFace) {
+    if (const auto at = surplus.find(face); at != surplus.end()) --at->second;
+  }
+  return std::all_of(surplus.begin(), surplus.end(), [](const auto& of) { return of.second >= 0; });
 }
 
 QualityOptions qualityOptions(const MeshOptions& options, double size) {
@@ -97,6 +108,9 @@ class MeshRun {
       const std::size_t faults = limits.size() + (missing.empty() ? 0 : 1) + missed.size();
       std::vector<std::int32_t> tiny;
       if (round > 0) tiny = tinyFacesAtFault(attempted.value());
+      // A face that lies on another is at fault in any number of elements.
+      const bool isFutile =
+          round > 0 && faults > fewest && faults == limits.size() && areMostlyAtFault(limits, attempted.value().mesh);
       if (round == 0 || faults < fewest) {
         fewest = faults;
         if (const auto error = keep(std::move(attempted).value())) return *error;
@@ -107,7 +121,7 @@ class MeshRun {
       std::erase_if(
           limits, [&tiny](const SizeLimit& limit) { return std::binary_search(tiny.begin(), tiny.end(), limit.face); });
       if (round == 0) mostElements = kMostGrowth * elements + kFewElements;
-      const bool isLost = elements > mostElements || faults > 2 * fewest + kFewFaults;
+      const bool isLost = elements > mostElements || faults > 2 * fewest + kFewFaults || isFutile;
       if ((limits.empty() && tiny.empty()) || isLost || round == kMaxRefinements) break;
       auto refined = tiny.empty() ? refineFaces(mesh_, brep_, options_, scale(), std::move(prepared), limits, progress_)
                                   : giveTiny(tiny, limits);
@@ -169,15 +183,22 @@ class MeshRun {
     std::vector<SizeLimit> limits;  ///< Where smaller elements may make it valid.
   };
 
-  /// Faces at fault that are smaller than an element, ascending: if smaller elements did not help once they won't, and
-  /// the face's own triangles are not too coarse. Without those that are made of them already.
-  [[nodiscard]] std::vector<std::int32_t> tinyFacesAtFault(const Attempt& made) const {
-    const PreparedFaces& prepared = sizes_.trial.prepared;
+  /// Faces at fault that are not made of the part's own triangles, ascending.
+  [[nodiscard]] std::vector<std::int32_t> meshedFacesAtFault(const Attempt& made) const {
     std::vector<std::int32_t> faces = facesAtFault(made.mesh, made.quality, brep_);
     std::erase_if(faces, [&](std::int32_t face) {
-      const auto f = static_cast<std::size_t>(face);
-      return brep_.faces[f].area > prepared.size.base * prepared.size.base || prepared.given[f] != Given::nothing;
+      return sizes_.trial.prepared.given[static_cast<std::size_t>(face)] != Given::nothing;
     });
+    return faces;
+  }
+
+  /// Those that are smaller than an element: if smaller elements did not help once they won't, and the face's own
+  /// triangles are not too coarse.
+  [[nodiscard]] std::vector<std::int32_t> tinyFacesAtFault(const Attempt& made) const {
+    const double base = sizes_.trial.prepared.size.base;
+    std::vector<std::int32_t> faces = meshedFacesAtFault(made);
+    std::erase_if(faces,
+                  [&](std::int32_t face) { return brep_.faces[static_cast<std::size_t>(face)].area > base * base; });
     return faces;
   }
 
@@ -225,38 +246,33 @@ class MeshRun {
   Result<Attempt> attempt() {
     auto first = joinHolding();
     if (!first || options_.allQuad) return first;
-    const std::vector<SizeLimit> faults = faultsOf(first.value());
-    const std::vector<std::int32_t> faces = facesToMend(faults);
+    const std::vector<std::int32_t> faces = meshedFacesAtFault(first.value());
     if (faces.empty()) return first;
-    if (const auto error = mendFaces(faces)) return *error;
+    const auto isChanged = mendFaces(faces);
+    if (!isChanged) return isChanged.error();
+    if (!isChanged.value()) return first;
     auto second = joinHolding();
-    return !second || faultsOf(second.value()).size() < faults.size() ? std::move(second) : std::move(first);
+    const bool takesSecond = !second || faultsOf(second.value()).size() < faultsOf(first.value()).size();
+    return takesSecond ? std::move(second) : std::move(first);
   }
 
-  /// The faces of these places, ascending, without those that are made of the part's own triangles.
-  [[nodiscard]] std::vector<std::int32_t> facesToMend(const std::vector<SizeLimit>& faults) const {
-    std::vector<std::int32_t> faces;
-    for (const SizeLimit& fault : faults) {
-      const bool isGiven = sizes_.trial.prepared.given[static_cast<std::size_t>(fault.face)] != Given::nothing;
-      if (!isGiven) faces.push_back(fault.face);
-    }
-    std::sort(faces.begin(), faces.end());
-    faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
-    return faces;
-  }
-
-  /// Turns back what is turned over in the meshes of these faces.
-  std::optional<Error> mendFaces(const std::vector<std::int32_t>& faces) {
+  /// Turns back what is turned over in the meshes of these faces. Returns whether any mesh is another one now.
+  Result<bool> mendFaces(const std::vector<std::int32_t>& faces) {
     Trial& trial = sizes_.trial;
     const TriangleBvh whole(mesh_.positions, mesh_.triangles);
+    std::vector<std::uint8_t> changed(trial.faces.size(), 0);
     const auto mend = [&](std::int32_t face, Progress& progress) -> std::optional<Error> {
-      MeshedFace& meshed = trial.faces[static_cast<std::size_t>(face)];
+      const auto f = static_cast<std::size_t>(face);
+      MeshedFace& meshed = trial.faces[f];
       auto mended = mendFace(part_, trial.prepared, whole, meshed, progress);
       if (!mended) return mended.error();
+      const FaceMesh& now = mended.value().mesh;
+      changed[f] = now.elements != meshed.mesh.elements || now.positions != meshed.mesh.positions ? 1 : 0;
       meshed = std::move(mended).value();
       return std::nullopt;
     };
-    return forEachFace(part_, trial, faces, progress_, mend);
+    if (const auto error = forEachFace(part_, trial, faces, progress_, mend)) return *error;
+    return std::count(changed.begin(), changed.end(), 1) > 0;
   }
 
   /// The faces' meshes as one, relaxed together. Places that this would cost their validity are held, then their faces,
@@ -271,7 +287,14 @@ class MeshRun {
     auto best = join(separate.value(), held);
     if (!best) return best;
     std::vector<SizeLimit> faults = faultsOf(best.value());
-    for (std::size_t round = 0; round < kMaxHolds && !faults.empty(); ++round) {
+    if (faults.empty()) return best;
+    // What is not valid in the faces' own meshes stays so, whatever is held.
+    Held everything = held;
+    everything.faces.assign(held.faces.size(), 1);
+    auto unrelaxed = join(separate.value(), everything);
+    if (!unrelaxed) return unrelaxed;
+    const std::size_t least = faultsOf(unrelaxed.value()).size();
+    for (std::size_t round = 0; round < kMaxHolds && faults.size() > least; ++round) {
       for (const SizeLimit& fault : faults) {
         const auto f = static_cast<std::size_t>(fault.face);
         if (round < kHeldElements.size()) {
@@ -281,12 +304,12 @@ class MeshRun {
           held.faces[f] = 1;
         }
       }
-      if (round + 1 == kMaxHolds) held.faces.assign(held.faces.size(), 1);
       auto made = join(separate.value(), held);
       if (!made) return made;
       faults = faultsOf(made.value());
       if (faults.size() < faultsOf(best.value()).size()) best = std::move(made);
     }
+    if (least < faultsOf(best.value()).size()) best = std::move(unrelaxed);
     return best;
   }
 

@@ -64,6 +64,13 @@ FaceMesh gridWithDoublet(const Patch& square) {
   return mesh;
 }
 
+/// Of a part that is this patch alone: which triangle of it each of the patch's is.
+std::vector<std::int32_t> ownTriangles(const Patch& patch) {
+  std::vector<std::int32_t> triangleOf(patch.surface.triangleCount());
+  std::iota(triangleOf.begin(), triangleOf.end(), 0);
+  return triangleOf;
+}
+
 TEST(CleanUp, LeavesAPerfectGridAlone) {
   const Patch patch = testing::makeSquare(6);
   const FaceMesh grid = testing::gridMesh(patch, 6);
@@ -243,8 +250,7 @@ TEST(CleanUp, MendsTheSameWherePartAndFaceAreOne) {
   options.topology = false;
   options.quadsOnly = true;
   const CleanupResult alone = clean(mesh, patch, options);
-  std::vector<std::int32_t> triangleOf(patch.surface.triangleCount());
-  std::iota(triangleOf.begin(), triangleOf.end(), 0);
+  const std::vector<std::int32_t> triangleOf = ownTriangles(patch);
   const WholePart whole{tree, triangleOf};
   options.part = &whole;
   const CleanupResult checked = clean(mesh, patch, options);
@@ -260,8 +266,7 @@ TEST(CleanUp, ChangesConnectionsBeforeItCutsWhereTheCheckAgainstThePartIsKnown) 
   options.topology = false;
   const CleanupResult cut = clean(mesh, patch, options);
   EXPECT_GT(cut.statistics.cuts, 0);
-  std::vector<std::int32_t> triangleOf(patch.surface.triangleCount());
-  std::iota(triangleOf.begin(), triangleOf.end(), 0);
+  const std::vector<std::int32_t> triangleOf = ownTriangles(patch);
   const WholePart whole{tree, triangleOf};
   options.part = &whole;
   const CleanupResult mended = clean(mesh, patch, options);
