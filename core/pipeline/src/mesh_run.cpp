@@ -101,8 +101,9 @@ class MeshRun {
       auto attempted = attempt();
       if (!attempted) return attempted.error();
       std::vector<SizeLimit> limits = std::move(attempted.value().limits);
-      // Faces that are poorly covered are made anew as a whole, and count as one fault each.
-      const auto missing = halvedWhereMissing(attempted.value().mesh, attempted.value().quality, brep_);
+      // What is poorly covered counts as one fault.
+      const auto missing =
+          beforeCuts(halvedWhereMissing(attempted.value().mesh, attempted.value().quality, mesh_, brep_));
       const auto elements = static_cast<double>(attempted.value().mesh.elements.size());
       const auto missed = halvedWhereMissed(attempted.value().quality.missed, mesh_, brep_, prepared.size);
       const std::size_t faults = limits.size() + (missing.empty() ? 0 : 1) + missed.size();
@@ -121,6 +122,8 @@ class MeshRun {
       std::erase_if(
           limits, [&tiny](const SizeLimit& limit) { return std::binary_search(tiny.begin(), tiny.end(), limit.face); });
       if (round == 0) mostElements = kMostGrowth * elements + kFewElements;
+      // Half the size all over takes four times as many.
+      if (!missing.empty()) mostElements = std::max(mostElements, 4.0 * elements + kFewElements);
       const bool isLost = elements > mostElements || faults > 2 * fewest + kFewFaults || isFutile;
       if ((limits.empty() && tiny.empty()) || isLost || round == kMaxRefinements) break;
       auto refined = tiny.empty() ? refineFaces(mesh_, brep_, options_, scale(), std::move(prepared), limits, progress_)
@@ -359,10 +362,14 @@ class MeshRun {
     std::vector<SizeLimit> limits;
     for (const MeshedFace& face : sizes_.trial.faces)
       limits.insert(limits.end(), face.tooCoarse.begin(), face.tooCoarse.end());
-    for (SizeLimit limit : halvedWhereInvalid(joined, quality)) {
-      limit.size *= coarsening_;
-      limits.push_back(limit);
-    }
+    const auto invalid = beforeCuts(halvedWhereInvalid(joined, quality));
+    limits.insert(limits.end(), invalid.begin(), invalid.end());
+    return limits;
+  }
+
+  /// Sizes of elements of the joined mesh as those of the elements that these are cut from.
+  [[nodiscard]] std::vector<SizeLimit> beforeCuts(std::vector<SizeLimit> limits) const {
+    for (SizeLimit& limit : limits) limit.size *= coarsening_;
     return limits;
   }
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <numeric>
 #include <string_view>
 
 #include "qmcf/spatial/triangle_bvh.hpp"
@@ -63,6 +64,65 @@ std::vector<std::uint8_t> poorlyCovered(const QuadMesh& mesh, const Brep& brep) 
   return result;
 }
 
+/// The elements of a face, and which is nearest to what of the part.
+class NearestElements {
+ public:
+  /// \pre the face's elements have area.
+  NearestElements(const QuadMesh& mesh, std::int32_t face) {
+    std::vector<std::array<std::int32_t, 3>> triangles;
+    for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
+      if (mesh.elementFace[e] != face) continue;
+      const Element& element = mesh.elements[e];
+      elements_.push_back(static_cast<std::int32_t>(e));
+      areas_.push_back(areaOf(mesh, element));
+      for (std::size_t c = 2; c < cornerCount(element); ++c) {
+        triangles.push_back({element[0], element[c - 1], element[c]});
+        elementOf_.push_back(elements_.size() - 1);
+      }
+    }
+    below_.assign(elements_.size(), 0.0);
+    piece_ = std::accumulate(areas_.begin(), areas_.end(), 0.0) / (kPieces * static_cast<double>(areas_.size()));
+    tree_ = TriangleBvh(mesh.positions, triangles);
+  }
+
+  /// Gives the area of a triangle of the part, piece by piece, to the elements nearest to the pieces.
+  void give(const Vec3& a, const Vec3& b, const Vec3& c) {
+    constexpr int kMostRows = 64;
+    const double area = 0.5 * norm(cross(b - a, c - a));
+    const int rows = static_cast<int>(std::clamp(std::ceil(std::sqrt(area / piece_)), 1.0, double{kMostRows}));
+    const auto take = [&](double i, double j) {
+      const Vec3 place = a + (b - a) * (i / rows) + (c - a) * (j / rows);
+      below_[elementOf_[static_cast<std::size_t>(tree_.closest(place).triangle)]] += area / (rows * rows);
+    };
+    for (int i = 0; i < rows; ++i) {
+      for (int j = 0; i + j < rows; ++j) {
+        take(i + 1.0 / 3.0, j + 1.0 / 3.0);
+        if (i + j + 1 < rows) take(i + 2.0 / 3.0, j + 2.0 / 3.0);
+      }
+    }
+  }
+
+  /// The elements whose area is far from what they were given, all if this is so for none.
+  [[nodiscard]] std::vector<std::int32_t> poor() const {
+    constexpr double kMost = 0.3;  // Of what they were given.
+    std::vector<std::int32_t> result;
+    for (std::size_t i = 0; i < elements_.size(); ++i) {
+      if (std::fabs(below_[i] - areas_[i]) > kMost * below_[i]) result.push_back(elements_[i]);
+    }
+    return result.empty() ? elements_ : result;
+  }
+
+ private:
+  static constexpr double kPieces = 16.0;  ///< Per element.
+
+  std::vector<std::int32_t> elements_;
+  std::vector<std::size_t> elementOf_;  ///< Per triangle of the tree, an index into elements_.
+  std::vector<double> areas_;
+  std::vector<double> below_;  ///< What each was given.
+  double piece_ = 0.0;         ///< The largest area that is given as a whole.
+  TriangleBvh tree_;
+};
+
 }  // namespace
 
 std::vector<SizeLimit> halvedAt(const FaceMesh& mesh, const std::vector<std::int32_t>& elements, std::int32_t face) {
@@ -80,13 +140,24 @@ std::vector<SizeLimit> halvedWhereInvalid(const QuadMesh& mesh, const QualityRep
   return limits;
 }
 
-std::vector<SizeLimit> halvedWhereMissing(const QuadMesh& mesh, const QualityReport& quality, const Brep& brep) {
+std::vector<SizeLimit> halvedWhereMissing(const QuadMesh& mesh, const QualityReport& quality, const TriangleMesh& part,
+                                          const Brep& brep) {
   std::vector<SizeLimit> limits;
   if (!failsToCover(quality)) return limits;
   const std::vector<std::uint8_t> poor = poorlyCovered(mesh, brep);
-  for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
-    if (poor[static_cast<std::size_t>(mesh.elementFace[e])] == 0) continue;
-    limits.push_back(halved(mesh.positions, mesh.elements[e], mesh.elementFace[e]));
+  for (std::size_t f = 0; f < poor.size(); ++f) {
+    if (poor[f] == 0) continue;
+    const auto face = static_cast<std::int32_t>(f);
+    NearestElements nearest(mesh, face);
+    for (const std::int32_t t : brep.faces[f].triangles) {
+      const auto corner = [&](std::size_t c) {
+        return part.positions[static_cast<std::size_t>(part.triangles[static_cast<std::size_t>(t)][c])];
+      };
+      nearest.give(corner(0), corner(1), corner(2));
+    }
+    for (const std::int32_t e : nearest.poor()) {
+      limits.push_back(halved(mesh.positions, mesh.elements[static_cast<std::size_t>(e)], face));
+    }
   }
   return limits;
 }

@@ -21,8 +21,10 @@ std::vector<SizeLimit> halvedWhereInvalid(const QuadMesh& mesh, const QualityRep
 /// The limits that ask for at least `lowest`.
 std::vector<SizeLimit> notBelow(const std::vector<SizeLimit>& limits, double lowest);
 
-/// The same for all elements of faces of which much is missing, when the mesh fails to cover the part.
-std::vector<SizeLimit> halvedWhereMissing(const QuadMesh& mesh, const QualityReport& quality, const Brep& brep);
+/// When the mesh fails to cover the part: the same for elements of faces of which much is missing whose area is far
+/// from that of what is nearest to them.
+std::vector<SizeLimit> halvedWhereMissing(const QuadMesh& mesh, const QualityReport& quality, const TriangleMesh& part,
+                                          const Brep& brep);
 
 /// Half the size at places of the part that the mesh misses (QualityReport::missed), as far apart as that reaches.
 std::vector<SizeLimit> halvedWhereMissed(const std::vector<Vec3>& places, const TriangleMesh& mesh, const Brep& brep,

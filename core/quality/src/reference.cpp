@@ -7,6 +7,7 @@
 
 #include "qmcf/base/bits.hpp"
 #include "qmcf/base/math.hpp"
+#include "qmcf/mesh/sharp_angle.hpp"
 #include "screening.hpp"
 
 namespace qmcf::quality {
@@ -156,7 +157,7 @@ Reference buildReference(const TriangleMesh& mesh) {
 }
 
 ReferenceFeatures findFeatures(const Reference& reference, double featureAngle) {
-  const double cosine = math::cos(featureAngle * math::kPi / 180.0);
+  const double cosine = math::cos(leastSharpAngle(featureAngle));
   ReferenceFeatures features;
   std::vector<Spoke> spokes;
   const auto& edges = reference.structure.edges.edges;

@@ -10,6 +10,7 @@
 #include "face_surface.hpp"
 #include "feature_edges.hpp"
 #include "qmcf/base/math.hpp"
+#include "qmcf/mesh/sharp_angle.hpp"
 #include "triangle_edges.hpp"
 
 namespace qmcf {
@@ -292,7 +293,7 @@ Result<Brep> recoverBrep(const TriangleMesh& mesh, const BrepOptions& options, P
   if (!progress.report(Stage::topology, 0.0)) return cancelledError();
   const detail::TriangleEdges edges(mesh.triangles, mesh.positions.size());
   if (!progress.report(Stage::topology, 0.3)) return cancelledError();
-  const double featureAngle = options.featureAngle * math::kPi / 180.0;
+  const double featureAngle = leastSharpAngle(options.featureAngle);
   detail::FeatureEdges features = detail::markFeatureEdges(mesh, edges, featureAngle);
   if (!progress.report(Stage::topology, 0.5)) return cancelledError();
   const detail::Bodies bodies = detail::findBodies(mesh, edges);

@@ -269,6 +269,23 @@ TEST(Brep, ShortCreaseInASmoothFaceIsNoise) {
   EXPECT_EQ(edgesOfKind(checkedBrep(foldedSheet(64, angle), 25.0), EdgeKind::sharp), 1U);
 }
 
+TEST(Brep, RoundOffDoesNotDecideAboutTheFeatureAngle) {
+  // Sides of twelve turn by exactly 30 degrees, wherever they are and whatever a file keeps of their coordinates.
+  for (const double shift : {0.0, 10.0, -70.0}) {
+    std::vector<Vec2> polygon;
+    for (int i = 0; i < 12; ++i) {
+      const double angle = 0.3 + shift + 2.0 * math::kPi * i / 12.0;
+      polygon.push_back({math::cos(angle), math::sin(angle)});
+    }
+    const auto stored = [shift](double x) { return static_cast<double>(static_cast<float>(x + shift)); };
+    const TriangleMesh exact = shapes::prism(polygon, {0.0, 0.0});
+    const TriangleMesh rounded = shapes::moved(exact, [&](const Vec3& p) {
+      return Vec3{stored(p.x), stored(p.y), stored(p.z)};
+    });
+    for (const TriangleMesh& mesh : {exact, rounded}) EXPECT_EQ(edgesOfKind(checkedBrep(mesh), EdgeKind::sharp), 36U);
+  }
+}
+
 TEST(Brep, WhereACreaseIsInterruptedItsEdgeHasStops) {
   // 52 degrees at both ends, 22 in the middle: continued there, and the ends of the sharp parts are remembered.
   const auto angle = [](double v) { return (22.0 + 30.0 * (2.0 * v - 1.0) * (2.0 * v - 1.0)) * kPi / 180.0; };
