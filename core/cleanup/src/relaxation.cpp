@@ -13,7 +13,7 @@ namespace {
 /// Weight of the size field against the element's own size.
 constexpr double kSizeWeight = 0.3;
 /// Shorter moves, in element sizes, wake nobody.
-constexpr double kStill = 5e-3;
+constexpr double kStill = 1e-2;
 /// Going further than wanted gets everything there in fewer sweeps, as in successive over-relaxation.
 constexpr double kOverRelaxation = 1.4;
 

@@ -1,5 +1,7 @@
 #include "failed_attempts.hpp"
 
+#include <limits>
+
 namespace qmcf {
 namespace {
 
@@ -8,25 +10,33 @@ namespace {
 constexpr double kReach = 5.0;
 /// With more changes than this since the failure, one of them is near.
 constexpr std::size_t kMostChanges = 2000;
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
 void FailedAttempts::noteChange(const EditMesh& mesh) {
-  const EditMesh::Changes changed = mesh.changes();
-  std::vector<Vec3> points;
-  for (const FaceId f : changed.faces) {
-    if (mesh.kind(f) == FaceKind::removed) continue;
+  // The ball around a box is larger than it need be, but much is visited often: no points are kept for a better one.
+  Vec3 low{kInfinity, kInfinity, kInfinity};
+  Vec3 high = -low;
+  const auto include = [&](const Vec3& p) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+  };
+  FaceId last;
+  const auto includeFace = [&](FaceId f) {
+    if (f == last || mesh.kind(f) == FaceKind::removed) return;
+    last = f;
     for (const HalfedgeId h : mesh.sides(f)) {
-      if (h.valid()) points.push_back(mesh.position(mesh.origin(h)));
+      if (h.valid()) include(mesh.position(mesh.origin(h)));
     }
-  }
-  for (const VertexId v : changed.vertices) {
-    if (!mesh.alive(v)) continue;
-    mesh.forEachOutgoing(v, [&](HalfedgeId h) { points.push_back(mesh.position(mesh.target(h))); });
-  }
+  };
+  const auto includeAround = [&](VertexId v) {
+    if (!mesh.alive(v)) return;
+    mesh.forEachOutgoing(v, [&](HalfedgeId h) { include(mesh.position(mesh.target(h))); });
+  };
+  mesh.forEachChange(includeFace, includeAround);
   Change change;
-  for (const Vec3& p : points) change.centre += p / static_cast<double>(points.size());
-  for (const Vec3& p : points) change.radius = std::max(change.radius, distance(p, change.centre));
+  if (low.x <= high.x) change = {(low + high) * 0.5, 0.5 * distance(low, high)};
   changes_.push_back(change);
 }
 

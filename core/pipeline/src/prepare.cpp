@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <iterator>
 #include <optional>
 #include <utility>
 
@@ -19,6 +20,7 @@ constexpr int kMaxDivisionRounds = 12;
 constexpr int kMaxGivenRounds = 8;
 /// Each round halves the size at the places that are missed.
 constexpr int kMissedRounds = 3;
+constexpr int kMoreMissedRounds = 1;  ///< Where a preparation before has found most.
 /// With ten divisions in a full turn the chords of an arc stay within a tenth of their length of it.
 constexpr std::int32_t kDivisionsPerTurn = 10;
 
@@ -122,14 +124,14 @@ class Preparation {
 
   Result<PreparedFaces> run(const std::vector<SizeLimit>& limits) {
     if (const auto error = computeSizes(limits)) return *error;
-    int missedRounds = 0;
+    int missedRounds = limits.empty() ? kMissedRounds : kMoreMissedRounds;
     for (int round = 0; round < kMaxDivisionRounds + kMaxGivenRounds; ++round) {
       divide();
       if (const auto error = triangulate()) return *error;
       if (!tooCoarse_.empty()) {
         if (round + 1 >= kMaxDivisionRounds || !raiseMinimum()) giveUnfinished();
-      } else if (!missed_.empty() && missedRounds < kMissedRounds) {
-        ++missedRounds;
+      } else if (!missed_.empty() && missedRounds > 0) {
+        --missedRounds;
         if (const auto error = computeSizes(missed_)) return *error;
       } else {
         return finish();
@@ -185,12 +187,24 @@ class Preparation {
 
   void take(std::size_t f, BackgroundResult background) {
     tooCoarse_.insert(tooCoarse_.end(), background.tooCoarse.begin(), background.tooCoarse.end());
-    missed_.insert(missed_.end(), background.missed.begin(), background.missed.end());
+    std::copy_if(background.missed.begin(), background.missed.end(), std::back_inserter(missed_),
+                 [this](const SizeLimit& limit) { return !isAskedFor(limit); });
     changed_[f] = true;
     done_[f] = background.tooCoarse.empty();
     if (!done_[f]) return;
     result_.patches[f] = std::move(background.patch);
     result_.sizesBefore[f] = {};
+  }
+
+  /// Whether a limit that was there before asks for hardly larger elements at the same place: what these miss, the same
+  /// limit again won't reach.
+  [[nodiscard]] bool isAskedFor(const SizeLimit& limit) const {
+    constexpr double kHardlyLarger = 1.1;
+    constexpr double kSamePlace = 0.5;  // In units of the limit.
+    return std::any_of(sizing_.limits.begin(), sizing_.limits.end(), [&](const SizeLimit& before) {
+      return before.face == limit.face && before.size <= kHardlyLarger * limit.size &&
+             distance(before.position, limit.position) <= kSamePlace * limit.size;
+    });
   }
 
   std::optional<Error> triangulate() {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <numeric>
 
 #include "qmcf/base/math.hpp"
 #include "qmcf/spatial/surface_tree.hpp"
@@ -12,31 +13,38 @@
 namespace qmcf {
 namespace {
 
-/// An edge of the mesh by its ends, ascending, and the face it is first met in.
+/// An edge of the mesh by its ends, and the face of the first element on it.
 struct MeasuredEdge {
   std::array<std::int32_t, 2> ends{};
-  std::int32_t element = 0;
   std::int32_t face = kNone;
 };
 
-/// Each edge once, ordered by face.
+/// Each edge once, ordered by face as the elements are.
 std::vector<MeasuredEdge> edgesOf(const QuadMesh& mesh) {
-  std::vector<MeasuredEdge> edges;
-  for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
-    const Element& element = mesh.elements[e];
-    const std::size_t corners = cornerCount(element);
-    for (std::size_t c = 0; c < corners; ++c) {
-      const auto [first, last] = std::minmax(element[c], element[(c + 1) % corners]);
-      edges.push_back({{first, last}, static_cast<std::int32_t>(e), mesh.elementFace[e]});
+  // Per vertex, the larger ends of its edges so far, at most one for each use of an edge.
+  std::vector<std::size_t> first(mesh.positions.size() + 1, 0);
+  const auto forEachSide = [&mesh](auto visit) {
+    for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
+      const Element& element = mesh.elements[e];
+      const std::size_t corners = cornerCount(element);
+      for (std::size_t c = 0; c < corners; ++c) visit(e, std::minmax(element[c], element[(c + 1) % corners]));
     }
-  }
-  std::sort(edges.begin(), edges.end(), [](const MeasuredEdge& a, const MeasuredEdge& b) {
-    return a.ends != b.ends ? a.ends < b.ends : a.element < b.element;
+  };
+  forEachSide([&](std::size_t, const auto& ends) { ++first[static_cast<std::size_t>(ends.first) + 1]; });
+  std::partial_sum(first.begin(), first.end(), first.begin());
+  std::vector<std::int32_t> larger(first.back());
+  std::vector<std::size_t> count(mesh.positions.size(), 0);
+  std::vector<MeasuredEdge> edges;
+  edges.reserve(larger.size());
+  forEachSide([&](std::size_t e, const auto& ends) {
+    const auto v = static_cast<std::size_t>(ends.first);
+    const auto begin = larger.begin() + static_cast<std::ptrdiff_t>(first[v]);
+    const auto end = begin + static_cast<std::ptrdiff_t>(count[v]);
+    if (std::find(begin, end, ends.second) != end) return;
+    *end = ends.second;
+    ++count[v];
+    edges.push_back({{ends.first, ends.second}, mesh.elementFace[e]});
   });
-  const auto same = [](const MeasuredEdge& a, const MeasuredEdge& b) { return a.ends == b.ends; };
-  edges.erase(std::unique(edges.begin(), edges.end(), same), edges.end());
-  std::stable_sort(edges.begin(), edges.end(),
-                   [](const MeasuredEdge& a, const MeasuredEdge& b) { return a.face < b.face; });
   return edges;
 }
 

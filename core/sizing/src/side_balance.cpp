@@ -365,6 +365,39 @@ class Balance {
     }
   }
 
+  /// Calls visit for each change of an edge at a face that a walk of this cost may go on with.
+  template <class Visit>
+  void forEachChange(std::int32_t face, double cost, Visit visit) {
+    if (face != ground_) {
+      budget_ -= static_cast<std::int64_t>(changing_[at(face)].size());
+      for (const std::int32_t edge : changing_[at(face)]) {
+        for (const std::int32_t by : {-1, 1}) {
+          if (allowed({edge, by})) visit(Change{edge, by});
+        }
+      }
+      return;
+    }
+    // It has all open edges of the part, and no rows: what is too costly there stays so.
+    if (groundChanges_.empty()) sortGround();
+    for (const Change& change : groundChanges_) {
+      --budget_;
+      if (cost + costOf(change) >= -kLeastGain) return;
+      visit(change);
+    }
+  }
+
+  /// Changes beyond the open edges, the cheapest first.
+  void sortGround() {
+    for (const std::int32_t edge : changing_[at(ground_)]) {
+      for (const std::int32_t by : {-1, 1}) {
+        if (allowed({edge, by})) groundChanges_.push_back({edge, by});
+      }
+    }
+    std::sort(groundChanges_.begin(), groundChanges_.end(), [this](const Change& a, const Change& b) {
+      return costOf(a) != costOf(b) ? costOf(a) < costOf(b) : a.id() < b.id();
+    });
+  }
+
   /// What it costs to make a change twice; infinity if that is not allowed.
   [[nodiscard]] double costOfTwo(const Change& change) const {
     const EdgeCount& edge = edges_[at(change.edge)];
@@ -443,6 +476,7 @@ class Balance {
     for (const Change& change : bestWalk) {
       edges_[at(change.edge)].count += change.by;
       price(change.edge);
+      groundChanges_.clear();
       for (const Term& term : terms_[at(change.edge)]) value_[term.row] += term.factor * change.by;
     }
     return !bestWalk.empty();
@@ -477,7 +511,6 @@ class Balance {
       label_[step.stepId()].queued = false;
       const double cost = label_[step.stepId()].cost;
       const std::int32_t face = faceAfter(step);
-      budget_ -= static_cast<std::int64_t>(changing_[at(face)].size());
       if (face == lastFace) {
         const double total = cost + lastCost + (face == ground_ ? 0.0 : costIn(face, step, last));
         if (total < best && passesOnce(step)) {
@@ -486,15 +519,11 @@ class Balance {
           for (Step s = step; s.edge != kNone; s = label_[s.stepId()].before) bestWalk.push_back(s);
         }
       }
-      for (const std::int32_t edge : changing_[at(face)]) {
-        if (edge == step.edge || edge == last.edge) continue;
-        for (const std::int32_t by : {-1, 1}) {
-          const Change next{edge, by};
-          if (!allowed(next)) continue;
-          const double inFace = face == ground_ ? 0.0 : costIn(face, step, next);
-          reach(step, stepFrom(face, next), cost + inFace + costOf(next));
-        }
-      }
+      forEachChange(face, cost, [&](const Change& next) {
+        if (next.edge == step.edge || next.edge == last.edge) return;
+        const double inFace = face == ground_ ? 0.0 : costIn(face, step, next);
+        reach(step, stepFrom(face, next), cost + inFace + costOf(next));
+      });
     }
     for (const Step& step : touched) label_[step.stepId()] = {};
   }
@@ -509,10 +538,11 @@ class Balance {
   std::vector<std::vector<std::size_t>> rowsOfFace_;
   std::vector<std::vector<std::int32_t>> changing_;  ///< Per face, and beyond the open edges: edges that may change.
   std::int32_t ground_ = 0;                          ///< Stands for a face beyond the open edges.
+  std::vector<Change> groundChanges_;                ///< As sortGround() left them; empty: out of date.
   std::vector<Label> label_;                         ///< Per step.
   std::vector<std::int32_t> passed_;                 ///< Scratch of passesOnce().
   std::vector<double> cost_;                         ///< Per change that is allowed.
-  std::int64_t budget_ = 50'000'000;
+  std::int64_t budget_ = 10'000'000;
 };
 
 }  // namespace

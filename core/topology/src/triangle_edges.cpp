@@ -7,33 +7,34 @@ namespace qmcf::detail {
 TriangleEdges::TriangleEdges(const Triangles& triangles, std::size_t vertexCount)
     : triangles_(&triangles), vertexCount_(vertexCount) {
   // Half-edges bucketed by their smaller vertex, then sorted by the larger one within each (short) bucket.
-  const auto ordered = [&](HalfedgeId h) {
-    const VertexId a = origin(h);
-    const VertexId b = target(h);
-    return a < b ? std::array{a, b} : std::array{b, a};
+  struct Use {
+    VertexId larger;
+    HalfedgeId halfedge;
+    bool operator<(const Use& other) const {
+      return larger != other.larger ? larger < other.larger : halfedge < other.halfedge;
+    }
   };
   std::vector<std::size_t> bucket(vertexCount + 1, 0);
-  for (const HalfedgeId h : halfedges()) ++bucket[ordered(h)[0].index() + 1];
+  for (const HalfedgeId h : halfedges()) ++bucket[std::min(origin(h), target(h)).index() + 1];
   for (std::size_t v = 0; v < vertexCount; ++v) bucket[v + 1] += bucket[v];
-  uses_.resize(halfedgeCount());
+  std::vector<Use> sorted(halfedgeCount());
   std::vector<std::size_t> fill(bucket.begin(), bucket.end() - 1);
-  for (const HalfedgeId h : halfedges()) uses_[fill[ordered(h)[0].index()]++] = h;
+  for (const HalfedgeId h : halfedges()) {
+    const auto [smaller, larger] = std::minmax({origin(h), target(h)});
+    sorted[fill[smaller.index()]++] = {larger, h};
+  }
 
+  uses_.resize(halfedgeCount());
   edge_.resize(halfedgeCount());
   for (std::size_t v = 0; v < vertexCount; ++v) {
-    const auto begin = uses_.begin() + static_cast<std::ptrdiff_t>(bucket[v]);
-    const auto end = uses_.begin() + static_cast<std::ptrdiff_t>(bucket[v + 1]);
-    std::sort(begin, end, [&](HalfedgeId g, HalfedgeId h) {
-      const VertexId a = ordered(g)[1];
-      const VertexId b = ordered(h)[1];
-      return a != b ? a < b : g < h;
-    });
+    std::sort(sorted.begin() + static_cast<std::ptrdiff_t>(bucket[v]),
+              sorted.begin() + static_cast<std::ptrdiff_t>(bucket[v + 1]));
     for (std::size_t i = bucket[v]; i < bucket[v + 1]; ++i) {
-      const auto pair = ordered(uses_[i]);
-      if (i == bucket[v] || ends_[EdgeId(ends_.size() - 1)] != pair) {
-        ends_.push_back(pair);
+      if (i == bucket[v] || sorted[i - 1].larger != sorted[i].larger) {
+        ends_.push_back({VertexId(v), sorted[i].larger});
         firstUse_.push_back(i);
       }
+      uses_[i] = sorted[i].halfedge;
       edge_[uses_[i]] = EdgeId(ends_.size() - 1);
     }
   }

@@ -155,6 +155,9 @@ class EditMesh {
     std::vector<VertexId> vertices;
   };
   [[nodiscard]] Changes changes() const;
+  /// The same without an order; some are visited often.
+  template <class VisitFace, class VisitVertex>
+  void forEachChange(VisitFace visitFace, VisitVertex visitVertex) const;
 
  private:
   enum Array : std::uint8_t { kNext, kPrev, kTwin, kOrigin, kFace, kOutgoing, kFaceHalfedge, kFaceKind, kArrayCount };
@@ -184,5 +187,20 @@ class EditMesh {
   std::vector<Vertex> savedVertices_;
   Watcher* watcher_ = nullptr;
 };
+
+template <class VisitFace, class VisitVertex>
+void EditMesh::forEachChange(VisitFace visitFace, VisitVertex visitVertex) const {
+  std::size_t newFaces = 0;
+  for (const Entry& entry : journal_) {
+    const auto index = static_cast<std::size_t>(entry.index);
+    if (entry.edit == Edit::vertex) visitVertex(VertexId(index));
+    if (entry.edit == Edit::newFace) ++newFaces;
+    if (entry.edit != Edit::word) continue;
+    if (entry.array == kFaceHalfedge || entry.array == kFaceKind) visitFace(FaceId(index));
+    if (entry.array > kFace || !alive(HalfedgeId(index)) || !face(HalfedgeId(index)).valid()) continue;
+    visitFace(face(HalfedgeId(index)));
+  }
+  for (std::size_t f = faceCapacity() - newFaces; f < faceCapacity(); ++f) visitFace(FaceId(f));
+}
 
 }  // namespace qmcf
