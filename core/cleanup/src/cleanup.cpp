@@ -7,6 +7,7 @@
 #include "qmcf/mesh/element_shape.hpp"
 #include "qmcf/mesh/extract.hpp"
 #include "relaxation.hpp"
+#include "stand.hpp"
 #include "untangle.hpp"
 
 namespace qmcf {
@@ -83,6 +84,42 @@ std::int64_t cutUnusable(EditMesh& mesh) {
   return cuts;
 }
 
+/// Joins triangles beside each other to quads that are well shaped and upright: around tips smooth normals are so far
+/// from those of the elements that good quads are cut. Returns how many.
+std::int64_t joinUpright(EditMesh& mesh, const RelaxationTarget& target) {
+  constexpr double kLeastSquare = 0.4;
+  std::int64_t joined = 0;
+  const auto isTriangle = [&mesh](FaceId f) { return mesh.kind(f) != FaceKind::removed && mesh.cornerCount(f) == 3; };
+  // Two elements would share both of their sides at a vertex inside that has no others.
+  const auto hasEnough = [&mesh](VertexId v) {
+    int elements = 0;
+    mesh.forEachOutgoing(v, [&](HalfedgeId) { ++elements; });
+    return mesh.isBoundary(v) || elements > 3;
+  };
+  for (std::size_t i = 0; i < mesh.faceCapacity(); ++i) {
+    const FaceId f(i);
+    double best = kLeastSquare;
+    HalfedgeId across;
+    if (!isTriangle(f)) continue;
+    for (const HalfedgeId h : mesh.sides(f)) {
+      if (!h.valid() || !mesh.twin(h).valid() || !isTriangle(mesh.face(mesh.twin(h)))) continue;
+      if (!hasEnough(mesh.origin(h)) || !hasEnough(mesh.target(h))) continue;
+      const std::size_t mark = mesh.mark();
+      const FaceId quad = joinTriangles(mesh, h);
+      const Stand stand = standOf(mesh, target, quad);
+      if (!stand.turnedOver && !(stand.penalty > 0.0) && stand.square >= best) {
+        best = stand.square;
+        across = h;
+      }
+      mesh.rollback(mark);
+    }
+    if (!across.valid()) continue;
+    joinTriangles(mesh, across);
+    ++joined;
+  }
+  return joined;
+}
+
 /// Per vertex, the elements that make it regular. The mesh's numbers are its own: patchVertex tells the patch's.
 std::vector<std::int32_t> wantedElements(const FaceMesh& mesh, const EditMesh& work, const Patch& patch) {
   constexpr std::int32_t kInsideEdge = 2;
@@ -143,6 +180,7 @@ Result<CleanupResult> cleanUp(const FaceMesh& mesh, const Patch& patch, const Tr
   const std::int64_t cuts = options.quadsOnly ? 0 : cutInverted(work);
   if (cuts > 0) untangle(work, where, options.quadsOnly);
   const std::int64_t unusable = options.quadsOnly ? 0 : cutUnusable(work);
+  const std::int64_t joined = options.quadsOnly ? 0 : joinUpright(work, where);
   work.commit();
   CleanupResult result{extract(work, mesh.patchVertex), topology.statistics(), 1.0, {}, {}};
   for (std::size_t v = 0; v < work.vertexCapacity(); ++v) {
@@ -150,7 +188,7 @@ Result<CleanupResult> cleanUp(const FaceMesh& mesh, const Patch& patch, const Tr
     if (work.alive(VertexId(v))) result.before.push_back(isNew ? kNone : static_cast<std::int32_t>(v));
   }
   result.statistics.turnedOver = turnedOver;
-  result.statistics.cuts = cuts + unusable;
+  result.statistics.cuts = cuts + unusable - joined;
   std::int32_t element = 0;
   for (std::size_t i = 0; i < work.faceCapacity(); ++i) {
     if (work.kind(FaceId(i)) == FaceKind::removed) continue;

@@ -219,6 +219,12 @@ class JointRelaxation {
     return worst;
   }
 
+  [[nodiscard]] double worstSquare(const std::vector<Occurrence>& occurrences) const {
+    double worst = 1.0;
+    for (const Occurrence& at : occurrences) worst = std::min(worst, worstSquareAround(meshes_[at.face], at.vertex));
+    return worst;
+  }
+
   /// Arc lengths of the nodes before and after one; on a closed edge they may lie before its start or past its end.
   [[nodiscard]] std::array<double, 2> neighbours(const std::vector<double>& s, const Slider& slider) const {
     const double before = slider.index > 0 ? s[slider.index - 1] : s[s.size() - 2] - edges_[slider.edge].curve.length();
@@ -280,12 +286,13 @@ class JointRelaxation {
     const double near = kNear * sizeAt(occurrences.front());
     const double allowed = std::max({departure(curve, before, s), departure(curve, s, after), near});
     if (departure(curve, before, s + step) > allowed || departure(curve, s + step, after) > allowed) return false;
+    const double square = worstSquare(occurrences);
     std::vector<EditMesh::Vertex> old;
     for (const Occurrence& at : occurrences) {
       old.push_back(meshes_[at.face].vertex(at.vertex));
       meshes_[at.face].setVertex(at.vertex, onFace(at, pointAt(curve, s + step)));
     }
-    if (worstAround(occurrences) < least) {
+    if (worstAround(occurrences) < least || worstSquare(occurrences) < square) {
       for (std::size_t i = 0; i < old.size(); ++i)
         meshes_[occurrences[i].face].setVertex(occurrences[i].vertex, old[i]);
       return false;

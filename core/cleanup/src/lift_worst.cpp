@@ -78,6 +78,7 @@ double WorstLift::worstAt(VertexId v, const EditMesh::Vertex& place) {
 
 bool WorstLift::lift(VertexId v) {
   double worst = worstShapeAround(mesh_, v);
+  const double square = worstSquareAround(mesh_, v);
   double length = kLongest;
   bool moved = false;
   for (int move = 0; move < kMostMoves && length >= kShortest && worst < enough_; ++move) {
@@ -96,7 +97,7 @@ bool WorstLift::lift(VertexId v) {
       if (worstAt(v, tried) <= bestWorst - kOffPlane) continue;
       tried = projectVertex(target_, from, tried.position);
       const double now = worstAt(v, tried);
-      if (now <= bestWorst) continue;
+      if (now <= bestWorst || worstSquareAround(mesh_, v) < square) continue;
       best = tried;
       bestWorst = now;
     }

@@ -90,8 +90,10 @@ double relaxVertex(EditMesh& mesh, VertexId v, const RelaxationTarget& target, d
   mesh.setVertex(v, moved);
   if (isWellShapedAround(mesh, v, enough)) return move;
   const double after = worstShapeAround(mesh, v);
+  const double squareAfter = worstSquareAround(mesh, v);
   mesh.rollback(mark);
-  if (!(after >= worstShapeAround(mesh, v))) return 0.0;
+  // Where elements lean whatever their shape, these alone would let any shape pass.
+  if (!(after >= worstShapeAround(mesh, v)) || !(squareAfter >= worstSquareAround(mesh, v))) return 0.0;
   mesh.setVertex(v, moved);
   return move;
 }

@@ -43,6 +43,7 @@ class Standing {
     Stand stand;
     for (std::size_t i = 0; i < corners_; ++i) {
       const double square = squareAt(i, areaAt(i));
+      stand.square = std::min(stand.square, square);
       stand.penalty += 2.0 * std::max(0.0, kSquare - square);
       stand.turnedOver = stand.turnedOver || square <= 0.0;
     }
@@ -71,6 +72,7 @@ class Standing {
       }
       stand.penalty += std::max(0.0, kUpright - upright);
       const double square = squareAt(i, area);
+      stand.square = std::min(stand.square, square);
       stand.penalty += 2.0 * std::max(0.0, kSquare - square);
       stand.turnedOver = stand.turnedOver || upright <= 0.0 || square <= 0.0;
       if (stand.penalty >= most) return stand;

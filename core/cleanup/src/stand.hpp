@@ -14,6 +14,7 @@ namespace qmcf {
 struct Stand {
   bool turnedOver = false;
   double penalty = 0.0;  ///< 0 when every corner is upright and well shaped.
+  double square = 1.0;   ///< The least sine at a corner, for a quadrilateral by its own normal.
 };
 
 /// A corner is turned over when it faces against the surface both below itself and below the element's centre, or is

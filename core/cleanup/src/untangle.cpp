@@ -22,11 +22,7 @@ constexpr std::int64_t kElementsPerMended = 100;
 constexpr int kStraightenSweeps = 4;
 
 /// The ways to change the two triangles beside an edge. Each returns whether it could be done.
-bool joinTriangles(EditMesh& mesh, HalfedgeId h) {
-  const HalfedgeId t = mesh.twin(h);
-  mesh.fill({mesh.next(h), mesh.prev(h), mesh.next(t), mesh.prev(t)}, {mesh.face(h), mesh.face(t)}, FaceKind::element);
-  return true;
-}
+bool join(EditMesh& mesh, HalfedgeId h) { return joinTriangles(mesh, h).valid(); }
 
 bool turnDiagonal(EditMesh& mesh, HalfedgeId h) {
   const HalfedgeId t = mesh.twin(h);
@@ -49,7 +45,7 @@ bool contractTwin(EditMesh& mesh, HalfedgeId h) { return contractEdge(mesh, mesh
 /// Changes the two triangles beside h in the way that turns most elements back. Returns whether one does.
 bool mendPair(EditMesh& mesh, const RelaxationTarget& target, HalfedgeId h) {
   using Change = bool (*)(EditMesh&, HalfedgeId);
-  constexpr std::array<Change, 4> kChanges{turnDiagonal, joinTriangles, contractEdge, contractTwin};
+  constexpr std::array<Change, 4> kChanges{turnDiagonal, join, contractEdge, contractTwin};
   const HalfedgeId t = mesh.twin(h);
   const std::vector<VertexId> around{mesh.origin(h), mesh.target(h), mesh.origin(mesh.prev(h)),
                                      mesh.origin(mesh.prev(t))};
@@ -115,6 +111,12 @@ void straighten(EditMesh& mesh, const RelaxationTarget& target) {
 }
 
 }  // namespace
+
+FaceId joinTriangles(EditMesh& mesh, HalfedgeId h) {
+  const HalfedgeId t = mesh.twin(h);
+  return mesh.fill({mesh.next(h), mesh.prev(h), mesh.next(t), mesh.prev(t)}, {mesh.face(h), mesh.face(t)},
+                   FaceKind::element);
+}
 
 std::int64_t untangle(EditMesh& mesh, const RelaxationTarget& target, bool quadsOnly) {
   std::int64_t found = 0;

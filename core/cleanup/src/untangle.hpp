@@ -6,6 +6,9 @@
 
 namespace qmcf {
 
+/// Makes the two triangles beside a half-edge one quadrilateral.
+FaceId joinTriangles(EditMesh& mesh, HalfedgeId h);
+
 /// In creases and thin limbs an element can face against the surface although it is well shaped. Moves vertices of such
 /// elements, over the face, to where fewer corners do, by trying places around them; never makes an element unusable.
 /// What that doesn't turn back, changes of connectivity may: of pairs of triangles unless there shall be quadsOnly, and

@@ -19,8 +19,8 @@ constexpr const char* kFooter =
     "Exit status: 0 done; 1 the mesh is not valid (check only); 2 wrong usage or an output that can't be written;\n"
     "3 input that can't be used; 4 cancelled; 5 internal error.";
 
-/// Memory that a stage has given back is kept for the next one: asking the system for the same pages again takes up to a
-/// tenth of the time of a large mesh.
+/// Memory that a stage has given back is kept for the next one: asking the system for the same pages again takes up to
+/// a tenth of the time of a large mesh.
 void keepMemory() {
 #ifdef __GLIBC__
   constexpr int kMost = 1 << 30;  // Bytes.

@@ -126,6 +126,23 @@ double worstShapeAround(const EditMesh& mesh, VertexId v) {
   return worst;
 }
 
+double worstSquareAround(const EditMesh& mesh, VertexId v, double enough) {
+  double worst = enough;
+  mesh.forEachOutgoing(v, [&](HalfedgeId h) {
+    const auto sides = mesh.sides(mesh.face(h));
+    if (!sides[3].valid()) return;
+    const auto p = [&](std::size_t i) -> const Vec3& { return mesh.position(mesh.origin(sides[i % 4])); };
+    const Vec3 normal = normalized(cross(p(2) - p(0), p(3) - p(1)));
+    for (std::size_t i = 0; i < 4; ++i) {
+      const Vec3 next = p(i + 1) - p(i);
+      const Vec3 last = p(i + 3) - p(i);
+      const double lengths = norm(next) * norm(last);
+      worst = std::min(worst, lengths > 0.0 ? dot(cross(next, last), normal) / lengths : -1.0);
+    }
+  });
+  return worst;
+}
+
 bool isWellShapedAround(const EditMesh& mesh, VertexId v, double least) {
   const auto corner = [&mesh](HalfedgeId h) { return &mesh.vertex(mesh.origin(h)); };
   const HalfedgeId first = mesh.outgoing(v);
