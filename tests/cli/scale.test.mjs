@@ -9,6 +9,7 @@ import { after, before, test } from 'node:test';
 
 const program = process.env.QMCF && resolve(process.env.QMCF);
 const samples = join(import.meta.dirname, '../../samples');
+const QUADS = 800;
 let folder;
 
 before(() => {
@@ -29,7 +30,7 @@ function mesh(triangles, map) {
   const vertices = triangles.flat().map((p) => `v ${map(p).join(' ')}`);
   const faces = triangles.map((_, t) => `f ${3 * t + 1} ${3 * t + 2} ${3 * t + 3}`);
   writeFileSync(join(folder, 'part.obj'), [...vertices, ...faces, ''].join('\n'));
-  const args = ['mesh', 'part.obj', '-o', 'mesh.obj', '--quads', '800', '--quiet', '--report', 'mesh.json'];
+  const args = ['mesh', 'part.obj', '-o', 'mesh.obj', '--quads', `${QUADS}`, '--quiet', '--report', 'mesh.json'];
   const { status, stderr } = spawnSync(program, args, { cwd: folder, encoding: 'utf8' });
   assert.equal(status, 0, stderr);
   const lines = readFileSync(join(folder, 'mesh.obj'), 'utf8').split('\n');
@@ -68,10 +69,11 @@ for (const file of ['plate_with_holes.stl', 'bracket_with_fillets.stl']) {
       assert.equal(report.faces.length, reference.faces.length);
       assert.equal(report.fieldSingularities, reference.fieldSingularities);
       const elements = (r) => r.quality.quads + r.quality.triangles;
-      // Both are within 4 % of the number asked for, or nearly.
-      assert.ok(Math.abs(elements(report) / elements(reference) - 1) < 0.09, `${elements(report)} for ${elements(reference)}`);
-      // The size is corrected by the number of elements made, which other roundings may change a little.
-      assert.ok(Math.abs(report.size / scale / reference.size - 1) < 0.06);
+      // The size is corrected by the number of elements made, which other roundings change by a row of elements.
+      for (const made of [report, reference]) {
+        assert.ok(Math.abs(elements(made) / QUADS - 1) < 0.07, `${elements(made)} for ${QUADS}`);
+      }
+      assert.ok(Math.abs(report.size / scale / reference.size - 1) < 0.07);
       assert.ok(report.quality.scaledJacobian.mean > reference.quality.scaledJacobian.mean - 0.01);
       assert.ok(Math.abs(report.quality.sharpRecall - reference.quality.sharpRecall) < 1e-3);
     });

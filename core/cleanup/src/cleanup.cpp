@@ -188,7 +188,8 @@ Result<CleanupResult> cleanUp(const FaceMesh& mesh, const Patch& patch, const Tr
     if (work.alive(VertexId(v))) result.before.push_back(isNew ? kNone : static_cast<std::int32_t>(v));
   }
   result.statistics.turnedOver = turnedOver;
-  result.statistics.cuts = cuts + unusable - joined;
+  result.statistics.cuts = cuts + unusable;
+  result.statistics.joins = joined;
   std::int32_t element = 0;
   for (std::size_t i = 0; i < work.faceCapacity(); ++i) {
     if (work.kind(FaceId(i)) == FaceKind::removed) continue;

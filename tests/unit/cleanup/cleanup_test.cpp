@@ -209,12 +209,40 @@ TEST(Subdivide, CutsQuadrilateralsInFourAndTrianglesInThree) {
 TEST(CleanUp, WithoutTopologyKeepsTheConnectivity) {
   const Patch patch = testing::makeSquare(5);
   FaceMesh mesh = testing::gridMesh(patch, 5);
-  const Element quad = mesh.elements[12];
-  mesh.elements[12] = {quad[0], quad[1], quad[2], kNone};
-  mesh.elements.push_back({quad[0], quad[2], quad[3], kNone});
+  // Two quads side by side, divided the other way: two vertices with three elements and two with five.
+  const Element left = mesh.elements[12];
+  const Element right = mesh.elements[13];
+  mesh.elements[12] = {left[0], left[1], right[1], right[2]};
+  mesh.elements[13] = {left[0], right[2], left[2], left[3]};
+  EXPECT_NE(clean(mesh, patch).mesh.elements, mesh.elements);
   CleanupOptions options;
   options.topology = false;
   EXPECT_EQ(clean(mesh, patch, options).mesh.elements, mesh.elements);
+}
+
+TEST(CleanUp, JoinsTrianglesToTheGoodQuadThatTheyAre) {
+  const Patch patch = testing::makeSquare(5);
+  const FaceMesh grid = testing::gridMesh(patch, 5);
+  const auto cutAt = [&grid](std::size_t e) {
+    FaceMesh mesh = grid;
+    const Element quad = mesh.elements[e];
+    mesh.elements[e] = {quad[0], quad[1], quad[2], kNone};
+    mesh.elements.push_back({quad[0], quad[2], quad[3], kNone});
+    return mesh;
+  };
+  CleanupOptions options;
+  options.topology = false;
+  const CleanupResult result = clean(cutAt(12), patch, options);
+  EXPECT_EQ(result.statistics.joins, 1);
+  EXPECT_EQ(result.mesh.elements.size(), grid.elements.size());
+  // With a corner drawn to between its neighbours, a quad is better as two triangles.
+  FaceMesh flat = cutAt(0);
+  const auto at = [&](std::size_t corner) -> Vec3& {
+    return flat.positions[static_cast<std::size_t>(grid.elements[0][corner])];
+  };
+  at(2) = at(2) * 0.05 + (at(1) + at(3)) * 0.475;
+  options.sweeps = 0;
+  EXPECT_EQ(clean(flat, patch, options).statistics.joins, 0);
 }
 
 TEST(CleanUp, MendsQuadrilateralsWithoutTriangles) {
@@ -292,7 +320,9 @@ TEST(CleanUp, CutsAStraightCornerWhateverTheNormalsSay) {
   const CleanupResult result = clean(mesh, patch, options);
   EXPECT_TRUE(result.degenerate.empty());
   EXPECT_EQ(result.statistics.cuts, 1);
-  EXPECT_EQ(result.mesh.elements.size(), mesh.elements.size() + 1);
+  // Its halves make good quads with the triangles beside it.
+  EXPECT_EQ(result.statistics.joins, 2);
+  EXPECT_EQ(result.mesh.elements.size(), 4U);
 }
 
 TEST(CleanUp, KeepsThinHandles) {

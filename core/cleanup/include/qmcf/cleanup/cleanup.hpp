@@ -37,9 +37,10 @@ struct CleanupStatistics {
   std::int64_t refills = 0;     ///< Small cavities that were filled anew.
   std::int64_t cavities = 0;    ///< Larger ones that were filled with a pattern.
   std::int64_t collapses = 0;   ///< Quads that were closed along a diagonal.
-  std::int64_t pairs = 0;       ///< Pairs of triangles that became quads.
+  std::int64_t pairs = 0;       ///< Pairs of triangles that operators made quads.
   std::int64_t turnedOver = 0;  ///< Elements facing against the surface whose vertices were moved.
   std::int64_t cuts = 0;        ///< Quads turned over at a corner that were cut into two good triangles.
+  std::int64_t joins = 0;       ///< Pairs of triangles that became good quads in the end.
 };
 
 struct CleanupResult {
