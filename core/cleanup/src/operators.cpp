@@ -19,6 +19,9 @@ constexpr double kWorthwhile = 0.08;
 /// Quads between two triangles that become quads with them; more make a loop that is longer than there are fillings
 /// for.
 constexpr std::size_t kLongestBridge = 3;
+/// Bridges are looked for if there are so few triangles, or at most one of so many elements.
+constexpr std::int64_t kFewTriangles = 200;
+constexpr std::int64_t kElementsPerTriangle = 5;
 
 std::vector<VertexId> withNeighbours(const EditMesh& mesh, const std::vector<VertexId>& vertices) {
   std::vector<VertexId> all = vertices;
@@ -265,7 +268,17 @@ bool TopologicalCleanup::bridgeTriangles(FaceId from, std::size_t quads) {
 
 std::int64_t TopologicalCleanup::bridgeAllTriangles() {
   std::int64_t changes = 0;
-  for (std::size_t quads = 0; quads <= kLongestBridge; ++quads) {
+  std::int64_t triangles = 0;
+  std::int64_t elements = 0;
+  for (std::size_t i = 0; i < mesh_.faceCapacity(); ++i) {
+    if (mesh_.kind(FaceId(i)) == FaceKind::removed) continue;
+    ++elements;
+    triangles += mesh_.cornerCount(FaceId(i)) == 3 ? 1 : 0;
+  }
+  // Where a front got stuck most elements are triangles, and the ways between them are past counting.
+  const bool areFew = triangles <= kFewTriangles || kElementsPerTriangle * triangles <= elements;
+  const std::size_t longest = areFew ? kLongestBridge : 0;
+  for (std::size_t quads = 0; quads <= longest; ++quads) {
     for (std::size_t i = 0; i < mesh_.faceCapacity(); ++i) {
       const FaceId f(i);
       if (mesh_.kind(f) == FaceKind::removed || mesh_.cornerCount(f) != 3) continue;

@@ -62,6 +62,16 @@ bool gotStuck(const FaceMesh& mesh, const Patch& patch) {
          (yield.triangleShare > kMostTriangles || yield.area < kLeastArea * yieldOf(trianglesOf(patch)).area);
 }
 
+/// Elements that no solver takes.
+std::vector<std::int32_t> unusableIn(const FaceMesh& mesh) {
+  const EditMesh work(mesh);
+  std::vector<std::int32_t> elements;
+  for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
+    if (isDegenerate(work, FaceId(e))) elements.push_back(static_cast<std::int32_t>(e));
+  }
+  return elements;
+}
+
 /// The front of the chosen mode, before the clean-up. seedPlace: where a front starts that nothing else does.
 Result<FaceMesh> advance(const Patch& patch, const PreparedFaces& prepared, const TriangleBvh& tree, std::size_t face,
                          Mode mode, double seedPlace, Progress& progress, TraceRecorder* trace) {
@@ -135,20 +145,28 @@ Result<MeshedFace> meshFace(const Part& part, const PreparedFaces& prepared, std
     assert(ledgerCloses(front.value(), part, face));
     isStuck = gotStuck(front.value(), patch);
   }
-  auto cleaned = cleanUp(front.value(), patch, tree, CleanupOptions{}, progress, trace);
-  if (!cleaned) return cleaned.error();
-  assert(ledgerCloses(cleaned.value().mesh, part, face));
-  const bool isGood = cleaned.value().degenerate.empty() && !isStuck;
-  if (strip && (!isGood || shapeCost(*strip) < shapeCost(cleaned.value().mesh))) return takeStrip();
+  FaceMesh& made = front.value();
+  std::vector<std::int32_t> unusable;
+  if (isStuck) {
+    unusable = unusableIn(made);
+  } else {
+    auto cleaned = cleanUp(made, patch, tree, CleanupOptions{}, progress, trace);
+    if (!cleaned) return cleaned.error();
+    made = std::move(cleaned.value().mesh);
+    unusable = std::move(cleaned.value().degenerate);
+    assert(ledgerCloses(made, part, face));
+  }
+  const bool isGood = unusable.empty() && !isStuck;
+  if (strip && (!isGood || shapeCost(*strip) < shapeCost(made))) return takeStrip();
   if (isGood) {
-    result.mesh = std::move(cleaned.value().mesh);
+    result.mesh = std::move(made);
     result.report.method = modeName(mode);
     count(result.report, result.mesh);
     return result;
   }
   result.report.reason = isStuck ? "the advancing front got stuck and left more than triangles can bridge well"
                                  : "the advancing front left elements without area or turned in on themselves";
-  result.tooCoarse = halvedAt(cleaned.value().mesh, cleaned.value().degenerate, face);
+  result.tooCoarse = halvedAt(made, unusable, face);
   auto paired = cleanUp(recombinePatch(patch).mesh, patch, tree, CleanupOptions{}, progress, trace, TraceKind::paired);
   if (!paired) return paired.error();
   if (paired.value().degenerate.empty()) {
