@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <iterator>
 #include <optional>
 #include <utility>
 
 #include "qmcf/base/parallel.hpp"
 #include "qmcf/qmorph/qmorph.hpp"
+#include "qmcf/sizing/point_grid.hpp"
 #include "settle_sizes.hpp"
 
 namespace qmcf {
@@ -187,8 +187,7 @@ class Preparation {
 
   void take(std::size_t f, BackgroundResult background) {
     tooCoarse_.insert(tooCoarse_.end(), background.tooCoarse.begin(), background.tooCoarse.end());
-    std::copy_if(background.missed.begin(), background.missed.end(), std::back_inserter(missed_),
-                 [this](const SizeLimit& limit) { return !isAskedFor(limit); });
+    missed_.insert(missed_.end(), background.missed.begin(), background.missed.end());
     changed_[f] = true;
     done_[f] = background.tooCoarse.empty();
     if (!done_[f]) return;
@@ -196,14 +195,28 @@ class Preparation {
     result_.sizesBefore[f] = {};
   }
 
-  /// Whether a limit that was there before asks for hardly larger elements at the same place: what these miss, the same
-  /// limit again won't reach.
-  [[nodiscard]] bool isAskedFor(const SizeLimit& limit) const {
+  /// Drops what was missed where a limit that was there before asks for hardly larger elements: what these miss, the
+  /// same limit again won't reach.
+  void dropAskedFor() {
     constexpr double kHardlyLarger = 1.1;
-    constexpr double kSamePlace = 0.5;  // In units of the limit.
-    return std::any_of(sizing_.limits.begin(), sizing_.limits.end(), [&](const SizeLimit& before) {
-      return before.face == limit.face && before.size <= kHardlyLarger * limit.size &&
-             distance(before.position, limit.position) <= kSamePlace * limit.size;
+    constexpr double kSamePlace = 0.5;  // In units of the limit, which is at most the base size.
+    const std::vector<SizeLimit>& limits = sizing_.limits;
+    if (missed_.empty() || limits.empty()) return;
+    std::vector<Vec3> positions;
+    std::vector<std::int32_t> ids;
+    for (const SizeLimit& limit : limits) {
+      ids.push_back(static_cast<std::int32_t>(positions.size()));
+      positions.push_back(limit.position);
+    }
+    const PointGrid grid(positions, ids, result_.size.base);
+    std::erase_if(missed_, [&](const SizeLimit& limit) {
+      bool isThere = false;
+      grid.forEachNear(limit.position, [&](std::int32_t id) {
+        const SizeLimit& before = limits[static_cast<std::size_t>(id)];
+        isThere = isThere || (before.face == limit.face && before.size <= kHardlyLarger * limit.size &&
+                              distance(before.position, limit.position) <= kSamePlace * limit.size);
+      });
+      return isThere;
     });
   }
 
@@ -231,6 +244,7 @@ class Preparation {
     };
     if (const auto error = parallelFor(areas, threadsOf(options_), progress_, build)) return *error;
     for (std::size_t i = 0; i < due.size(); ++i) take(due[i], std::move(built[i]));
+    dropAskedFor();
     std::sort(tooCoarse_.begin(), tooCoarse_.end());
     tooCoarse_.erase(std::unique(tooCoarse_.begin(), tooCoarse_.end()), tooCoarse_.end());
     return std::nullopt;
