@@ -143,7 +143,7 @@ class MeshRun {
   std::optional<Error> giveTriangles() {
     // A fine scan of which a few elements are not valid is not replaced by itself.
     const std::size_t mostTriangles = kMostGiven + 2 * result_.mesh.elements.size();
-    std::vector<Given> given = sizes_.trial.prepared.given;
+    std::vector<Given> given = keptGiven_;
     std::vector<std::int32_t> atFault = facesAtFault(result_.mesh, result_.quality, brep_);
     for (int round = 0; round < kMaxGivenRounds && !atFault.empty(); ++round) {
       bool changed = false;
@@ -390,6 +390,7 @@ class MeshRun {
     result_.sizing = prepared.size.sources;
     result_.refinedPlaces = static_cast<std::int64_t>(prepared.size.limits.size());
     keptSizes_ = {prepared.size.base, prepared.size.limits, prepared.minimumDivisions, prepared.size.chordSize};
+    keptGiven_ = prepared.given;
     // Where the count was corrected, the sizes used are not those that were asked for.
     std::optional<SizeField> asked;
     if (sizes_.askedBase != prepared.size.base) {
@@ -419,6 +420,7 @@ class MeshRun {
   SizingMesh* sizing_;       ///< Of the mesh that is kept; nullptr: nobody wants it.
   ChosenSizes sizes_;        ///< And what the last attempt was made of.
   PreparedSizes keptSizes_;  ///< Of the mesh that is kept.
+  std::vector<Given> keptGiven_;
 };
 
 }  // namespace
