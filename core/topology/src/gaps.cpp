@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <numeric>
-#include <utility>
-#include <vector>
 
 #include "edit_soup.hpp"
 #include "point_grid.hpp"
@@ -18,8 +16,7 @@ namespace {
 
 struct Boundary {
   std::vector<std::array<std::int32_t, 2>> edges;
-  std::vector<std::int32_t> vertices;                         ///< Ascending.
-  std::vector<std::pair<std::int32_t, std::int32_t>> spokes;  ///< Each edge from both of its ends, ascending.
+  std::vector<std::int32_t> vertices;  ///< Ascending.
 };
 
 Boundary findBoundary(const TriangleMesh& mesh) {
@@ -30,9 +27,7 @@ Boundary findBoundary(const TriangleMesh& mesh) {
     const auto [a, b] = edges.ends(e);
     boundary.edges.push_back({a.value, b.value});
     boundary.vertices.insert(boundary.vertices.end(), {a.value, b.value});
-    boundary.spokes.insert(boundary.spokes.end(), {{a.value, b.value}, {b.value, a.value}});
   }
-  std::sort(boundary.spokes.begin(), boundary.spokes.end());
   std::sort(boundary.vertices.begin(), boundary.vertices.end());
   boundary.vertices.erase(std::unique(boundary.vertices.begin(), boundary.vertices.end()), boundary.vertices.end());
   return boundary;
@@ -115,23 +110,6 @@ std::vector<std::pair<double, std::int32_t>> verticesOn(const TriangleMesh& mesh
   return found;
 }
 
-/// Whether a boundary edge from a vertex on another one runs along with it, as far as the shorter of both goes: a
-/// vertex that merely touches an edge joins nothing.
-bool runsAlong(const TriangleMesh& mesh, const Boundary& boundary, const std::array<std::int32_t, 2>& edge,
-               std::int32_t vertex, double tolerance) {
-  const auto at = [&](std::int32_t v) -> const Vec3& { return mesh.positions[static_cast<std::size_t>(v)]; };
-  const Vec3 along = normalized(at(edge[1]) - at(edge[0]));
-  const auto first = std::lower_bound(boundary.spokes.begin(), boundary.spokes.end(), std::pair(vertex, kNone));
-  for (auto spoke = first; spoke != boundary.spokes.end() && spoke->first == vertex; ++spoke) {
-    const Vec3 way = at(spoke->second) - at(vertex);
-    const double room = distance(at(vertex), at(dot(way, along) > 0.0 ? edge[1] : edge[0]));
-    const Vec3 end = at(vertex) + normalized(way) * std::min(room, norm(way));
-    const Vec3 offset = end - at(edge[0]);
-    if (norm(offset - along * dot(offset, along)) <= 2.0 * tolerance) return true;
-  }
-  return false;
-}
-
 /// Splits boundary edges at the boundary vertices that lie on them. Returns how many splits were made.
 std::int64_t splitAtJunctions(RepairState& state, const Boundary& boundary, RepairItem& item) {
   double total = 0.0;
@@ -144,8 +122,6 @@ std::int64_t splitAtJunctions(RepairState& state, const Boundary& boundary, Repa
   std::vector<std::pair<std::array<std::int32_t, 2>, std::vector<std::pair<double, std::int32_t>>>> splits;
   for (const auto& edge : boundary.edges) {
     auto found = verticesOn(state.mesh, grid, edge, state.tolerance);
-    std::erase_if(found,
-                  [&](const auto& on) { return !runsAlong(state.mesh, boundary, edge, on.second, state.tolerance); });
     for (const auto& [along, v] : found) note(item, v);
     if (!found.empty()) splits.emplace_back(edge, std::move(found));
   }

@@ -372,23 +372,6 @@ TEST(Repair, CrackIsZippedAndSaysWhere) {
   EXPECT_EQ(shapes::checkedBrep(report.mesh).bodies.size(), 2U);
 }
 
-TEST(Repair, SplitsNoEdgeWhereAVertexMerelyTouchesIt) {
-  TriangleMesh mesh;
-  mesh.positions = {{0, 0, 0}, {2, 0, 0}, {1, -1, 0}, {1, 0, 0}, {1.5, 1, 0}, {0.5, 1, 0}};
-  mesh.triangles = {{0, 2, 1}, {3, 4, 5}};
-  const RepairedMesh touching = run(mesh);
-  EXPECT_EQ(countOf(touching, "tJunctions"), 0);
-  EXPECT_EQ(countOf(touching, "nonManifoldVertices"), 0);
-  EXPECT_EQ(touching.mesh.triangles.size(), 2U);
-  // Beside each other for half of both edges, they join there.
-  mesh.positions[4] = {3, 0, 0};
-  mesh.positions[5] = {2, 1, 0};
-  const RepairedMesh joined = run(mesh);
-  EXPECT_EQ(countOf(joined, "tJunctions"), 2);
-  EXPECT_EQ(joined.mesh.triangles.size(), 4U);
-  EXPECT_EQ(shapes::checkedBrep(joined.mesh).bodies.size(), 1U);
-}
-
 TEST(Repair, MoebiusStripIsReportedAndConsistentElsewhere) {
   const RepairedMesh result = run(shapes::moebius(30, 4));
   EXPECT_GT(countOf(result, "oneSidedEdges"), 0);
