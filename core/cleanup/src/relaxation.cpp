@@ -92,7 +92,7 @@ double relaxVertex(EditMesh& mesh, VertexId v, const RelaxationTarget& target, d
   const double after = worstShapeAround(mesh, v);
   const double squareAfter = worstSquareAround(mesh, v);
   mesh.rollback(mark);
-  // Where elements lean whatever their shape, these alone would let any shape pass.
+  // An element that leans counts as bad whatever its shape, and by itself would let any shape around it pass.
   if (!(after >= worstShapeAround(mesh, v)) || !(squareAfter >= worstSquareAround(mesh, v))) return 0.0;
   mesh.setVertex(v, moved);
   return move;

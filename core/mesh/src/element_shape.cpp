@@ -126,8 +126,9 @@ double worstShapeAround(const EditMesh& mesh, VertexId v) {
   return worst;
 }
 
-double worstSquareAround(const EditMesh& mesh, VertexId v, double enough) {
-  double worst = enough;
+double worstSquareAround(const EditMesh& mesh, VertexId v) {
+  constexpr double kEnough = 0.3;
+  double worst = kEnough;
   mesh.forEachOutgoing(v, [&](HalfedgeId h) {
     const auto sides = mesh.sides(mesh.face(h));
     if (!sides[3].valid()) return;

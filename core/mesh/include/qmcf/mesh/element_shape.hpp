@@ -27,8 +27,8 @@ bool isDegenerate(const EditMesh& mesh, FaceId f);
 /// The worst faceShape() around a vertex.
 double worstShapeAround(const EditMesh& mesh, VertexId v);
 /// The worst scaled Jacobian of the quadrilaterals around a vertex by their own normals, whatever the surface; at most
-/// `enough`, from which on it doesn't matter.
-double worstSquareAround(const EditMesh& mesh, VertexId v, double enough = 0.3);
+/// 0.3, from which on it doesn't matter.
+double worstSquareAround(const EditMesh& mesh, VertexId v);
 /// Whether worstShapeAround() is at least `least`, in (0, 1]; much faster where it is by far.
 bool isWellShapedAround(const EditMesh& mesh, VertexId v, double least);
 
