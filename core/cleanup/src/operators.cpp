@@ -20,8 +20,9 @@ constexpr double kWorthwhile = 0.08;
 /// for.
 constexpr std::size_t kLongestBridge = 3;
 /// Bridges are looked for if there are so few triangles, or at most one of so many elements.
-constexpr std::int64_t kFewTriangles = 200;
 constexpr std::int64_t kElementsPerTriangle = 5;
+
+}  // namespace
 
 std::vector<VertexId> withNeighbours(const EditMesh& mesh, const std::vector<VertexId>& vertices) {
   std::vector<VertexId> all = vertices;
@@ -43,8 +44,6 @@ double worstAround(const EditMesh& mesh, const std::vector<VertexId>& vertices) 
   for (const VertexId v : vertices) worst = std::min(worst, worstShapeAround(mesh, v));
   return worst;
 }
-
-}  // namespace
 
 TopologicalCleanup::TopologicalCleanup(EditMesh& mesh, std::vector<std::int32_t> wanted, const RelaxationTarget& target,
                                        const CleanupOptions& options, TraceRecorder* trace)

@@ -10,6 +10,7 @@
 #include "qmcf/mesh/edit_mesh.hpp"
 #include "qmcf/mesh/side_pattern.hpp"
 #include "relaxation.hpp"
+#include "triangle_paths.hpp"
 
 namespace qmcf {
 
@@ -29,6 +30,9 @@ class TopologicalCleanup {
   /// One pass of cavity remeshing, for a mesh on which the small operators have done what they can. Returns the number
   /// of changes.
   std::int64_t cavityPass();
+  /// Pairs triangles that are far from each other, for a mesh on which cavities have done what they can. Returns the
+  /// number of pairs.
+  std::int64_t pathPass();
   /// The vertices around all changes since this was called last; some may have been removed since.
   std::vector<VertexId> takeTouched() { return std::exchange(touched_, {}); }
   [[nodiscard]] const CleanupStatistics& statistics() const { return statistics_; }
@@ -46,6 +50,8 @@ class TopologicalCleanup {
   /// follow.
   bool bridgeTriangles(FaceId from, std::size_t quads);
   std::int64_t bridgeAllTriangles();
+  /// Makes quads of the triangles at the ends of a path and of all between.
+  bool joinAlong(const TrianglePath& path);
   bool collapseDiagonal(HalfedgeId corner);
   /// Fills cavity_ anew if that is better.
   bool refill();
@@ -86,5 +92,14 @@ class TopologicalCleanup {
   std::unordered_set<std::uint64_t> triedRefills_;
   std::vector<VertexId> touched_;  ///< See takeTouched().
 };
+
+/// The vertices and all those of the elements around them, ascending.
+std::vector<VertexId> withNeighbours(const EditMesh& mesh, const std::vector<VertexId>& vertices);
+
+/// The worst faceShape() around the vertices.
+double worstAround(const EditMesh& mesh, const std::vector<VertexId>& vertices);
+
+/// Triangles that a pass over pairs of them is made for.
+inline constexpr std::int64_t kFewTriangles = 200;
 
 }  // namespace qmcf

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <numeric>
 #include <utility>
 
@@ -113,25 +114,50 @@ TEST(CleanUp, PairsTrianglesOfASplitQuad) {
   for (const Element& element : result.mesh.elements) EXPECT_EQ(cornerCount(element), 4U);
 }
 
+/// The grid of a square of n x n cells with a row, the middle one, cut askew: a triangle at each end and parallelograms
+/// between, from the second cell on.
+FaceMesh gridWithRowAskew(const Patch& square, int n, int between) {
+  FaceMesh mesh = testing::gridMesh(square, n);
+  const auto first = mesh.elements.begin() + n / 2 * n + 1;
+  const std::vector<Element> row(first, first + between + 1);
+  first[0] = {row[0][0], row[0][1], row[0][3], kNone};
+  for (std::size_t i = 0; i + 1 < row.size(); ++i) {
+    first[static_cast<std::ptrdiff_t>(i) + 1] = {row[i][1], row[i + 1][1], row[i][2], row[i][3]};
+  }
+  mesh.elements.push_back({row.back()[1], row.back()[2], row.back()[3], kNone});
+  return mesh;
+}
+
 TEST(CleanUp, BridgesTrianglesWithQuadsBetween) {
-  // A row of the grid is cut askew: a triangle at each end and parallelograms between.
-  for (std::size_t between = 1; between <= 3; ++between) {
-    const Patch patch = testing::makeSquare(8);
-    FaceMesh mesh = testing::gridMesh(patch, 8);
-    const std::size_t first = 3 * 8 + 1;
-    const std::vector<Element> row(mesh.elements.begin() + 25, mesh.elements.begin() + 30);
-    mesh.elements[first] = {row[0][0], row[0][1], row[0][3], kNone};
-    for (std::size_t i = 0; i < between; ++i) {
-      mesh.elements[first + 1 + i] = {row[i][1], row[i + 1][1], row[i][2], row[i][3]};
-    }
-    mesh.elements.push_back({row[between][1], row[between][2], row[between][3], kNone});
-    const CleanupResult result = clean(mesh, patch);
+  const Patch patch = testing::makeSquare(8);
+  for (int between = 1; between <= 3; ++between) {
+    const CleanupResult result = clean(gridWithRowAskew(patch, 8, between), patch);
     EXPECT_EQ(result.mesh.elements.size(), 64U) << between;
     EXPECT_EQ(result.statistics.refills, 1) << between;  // Without remeshing a larger region.
     EXPECT_EQ(result.statistics.cavities, 0) << between;
     for (const Element& element : result.mesh.elements) EXPECT_EQ(cornerCount(element), 4U) << between;
     EXPECT_GT(result.worstShape, 0.99) << between;
   }
+}
+
+TEST(CleanUp, PairsTrianglesFarFromEachOther) {
+  // No region around one of them reaches the other before it is too large for a pattern.
+  const Patch patch = testing::makeSquare(30);
+  for (const int between : {10, 16, 25}) {
+    const CleanupResult result = clean(gridWithRowAskew(patch, 30, between), patch);
+    EXPECT_EQ(result.mesh.elements.size(), 900U) << between;
+    EXPECT_EQ(result.statistics.pairs, 1) << between;
+    for (const Element& element : result.mesh.elements) EXPECT_EQ(cornerCount(element), 4U) << between;
+    EXPECT_GT(result.worstShape, 0.99) << between;
+  }
+}
+
+TEST(CleanUp, LeavesTrianglesWithMoreThanTwentyFiveQuadsBetween) {
+  const Patch patch = testing::makeSquare(30);
+  const CleanupResult result = clean(gridWithRowAskew(patch, 30, 26), patch);
+  EXPECT_EQ(result.statistics.pairs, 0);
+  const auto isTriangle = [](const Element& element) { return cornerCount(element) == 3U; };
+  EXPECT_EQ(std::count_if(result.mesh.elements.begin(), result.mesh.elements.end(), isTriangle), 2);
 }
 
 TEST(CleanUp, TwoOppositeDipolesGiveWayToAGrid) {
