@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <numeric>
+#include <set>
 #include <string_view>
 
 #include "qmcf/spatial/triangle_bvh.hpp"
@@ -34,6 +35,25 @@ void forEachElementAtFault(const QualityReport& quality, Visit visit) {
         std::find(kAboutElements.begin(), kAboutElements.end(), check.name) != kAboutElements.end();
     if (check.status != CheckStatus::fail || !isAboutElements) continue;
     for (const std::int64_t id : check.elements) visit(static_cast<std::size_t>(id));
+  }
+}
+
+Element sorted(Element element) {
+  std::sort(element.begin(), element.end());
+  return element;
+}
+
+/// The check of duplicates lists all but the first of them.
+template <class Visit>
+void forEachFirstOfDuplicates(const QuadMesh& mesh, const QualityReport& quality, Visit visit) {
+  std::set<Element> listed;
+  for (const ValidityCheck& check : quality.checks) {
+    if (check.name != "duplicateElements" || check.status != CheckStatus::fail) continue;
+    for (const std::int64_t id : check.elements) listed.insert(sorted(mesh.elements[static_cast<std::size_t>(id)]));
+  }
+  if (listed.empty()) return;
+  for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
+    if (listed.erase(sorted(mesh.elements[e])) > 0) visit(e);
   }
 }
 
@@ -186,7 +206,10 @@ std::vector<SizeLimit> halvedWhereMissed(const std::vector<Vec3>& places, const 
 std::vector<std::int32_t> facesAtFault(const QuadMesh& mesh, const QualityReport& quality, const Brep& brep) {
   std::vector<std::uint8_t> atFault =
       failsToCover(quality) ? poorlyCovered(mesh, brep) : std::vector<std::uint8_t>(brep.faces.size(), 0);
-  forEachElementAtFault(quality, [&](std::size_t e) { atFault[static_cast<std::size_t>(mesh.elementFace[e])] = 1; });
+  const auto mark = [&](std::size_t e) { atFault[static_cast<std::size_t>(mesh.elementFace[e])] = 1; };
+  forEachElementAtFault(quality, mark);
+  // Either of two layers with the same elements may be the one that can be made another way.
+  forEachFirstOfDuplicates(mesh, quality, mark);
   std::vector<std::int32_t> faces;
   for (std::size_t f = 0; f < atFault.size(); ++f) {
     if (atFault[f] != 0) faces.push_back(static_cast<std::int32_t>(f));

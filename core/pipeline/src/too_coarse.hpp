@@ -30,7 +30,8 @@ std::vector<SizeLimit> halvedWhereMissing(const QuadMesh& mesh, const QualityRep
 std::vector<SizeLimit> halvedWhereMissed(const std::vector<Vec3>& places, const TriangleMesh& mesh, const Brep& brep,
                                          const SizeField& size);
 
-/// Faces with elements that a failing check lists, and those of which much is missing, ascending.
+/// Faces with elements that a failing check lists or that are duplicates of these, and those of which much is missing,
+/// ascending.
 std::vector<std::int32_t> facesAtFault(const QuadMesh& mesh, const QualityReport& quality, const Brep& brep);
 
 /// Defects of all failing checks together.

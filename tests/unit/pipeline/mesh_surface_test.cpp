@@ -288,6 +288,41 @@ TEST(MeshSurface, MeshesOneOfTwoLayersThatElementsCanNotTellApart) {
   for (const FaceReport& face : result.faces) EXPECT_EQ(face.method == "omitted", !face.reason.empty());
 }
 
+/// A triangular plate with a flat pyramid over the triangle in its middle.
+TriangleMesh plateWithPyramid(double height) {
+  TriangleMesh plate;
+  for (const double radius : {1.0, 4.0}) {
+    for (int i = 0; i < 3; ++i) {
+      const auto corner = math::unitComplex(2.0 * math::kPi * i / 3.0);
+      plate.positions.push_back({radius * corner.real(), radius * corner.imag(), 0.0});
+    }
+  }
+  plate.positions.push_back({0.0, 0.0, height});
+  for (std::int32_t i = 0; i < 3; ++i) {
+    const std::int32_t j = (i + 1) % 3;
+    plate.triangles.push_back({i, j, 6});
+    plate.triangles.push_back({i, i + 3, j + 3});
+    plate.triangles.push_back({i, j + 3, j});
+  }
+  plate.triangles.push_back({0, 1, 2});
+  return plate;
+}
+
+TEST(MeshSurface, MakesTwoLayersOfTheSameElementAnotherWay) {
+  // Neither layer is wide enough for more than one triangle; the pyramid's own three are not that of the plate.
+  MeshOptions options;
+  options.size = 2.0;
+  options.featureAngle = 170.0;
+  SilentProgress silent;
+  for (const double height : {0.55, 0.7}) {
+    const auto result = meshSurface(plateWithPyramid(height), options, silent);
+    ASSERT_TRUE(result.ok());
+    EXPECT_TRUE(result.value().quality.valid) << height;
+    const auto isPyramid = [](const FaceReport& face) { return face.method == "given" && face.triangles == 3; };
+    EXPECT_EQ(std::count_if(result.value().faces.begin(), result.value().faces.end(), isPyramid), 1) << height;
+  }
+}
+
 TEST(MeshSurface, MeshesBothOfTwoLayersWithQuadrilateralsOnly) {
   for (const std::int64_t quads : {40, 100}) {
     const MeshResult result = allQuad(layeredPlate(), quads);
