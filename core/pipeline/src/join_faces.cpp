@@ -1,10 +1,37 @@
 #include "join_faces.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 
 #include "qmcf/sizing/edge_curve.hpp"
+#include "qmcf/sizing/slits.hpp"
 
 namespace qmcf {
+namespace {
+
+/// Nodes across from each other at a slit stay so.
+void keepAcross(const Part& part, std::vector<JointEdge>& edges) {
+  std::vector<EdgeCurve> curves;
+  for (const JointEdge& edge : edges) curves.push_back(edge.curve);
+  const double width = slitWidth(part.mesh);
+  for (const auto& slit : findSlits(part.brep, curves, width)) {
+    JointEdge& one = edges[static_cast<std::size_t>(slit[0])];
+    JointEdge& other = edges[static_cast<std::size_t>(slit[1])];
+    for (const double s : one.arcLength) {
+      const auto across = acrossSlit(other.curve, one.curve.at(s), width);
+      if (!across) continue;
+      const auto node = std::find_if(other.arcLength.begin(), other.arcLength.end(),
+                                     [&](double t) { return std::fabs(t - *across) <= width; });
+      if (node == other.arcLength.end()) continue;
+      one.stays.push_back(s);
+      other.stays.push_back(*node);
+    }
+  }
+  for (JointEdge& edge : edges) std::sort(edge.stays.begin(), edge.stays.end());
+}
+
+}  // namespace
 
 Result<std::int64_t> relaxJoint(const Part& part, const PreparedFaces& prepared, std::vector<SharedFace>& faces,
                                 const Held& held, SharedNodes& shared, double sizeScale, Progress& progress) {
@@ -24,6 +51,7 @@ Result<std::int64_t> relaxJoint(const Part& part, const PreparedFaces& prepared,
       edges.back().stays.push_back(edges.back().curve.arcLength[static_cast<std::size_t>(stop)]);
     }
   }
+  keepAcross(part, edges);
   JointRelaxationOptions options;
   options.sizeScale = sizeScale;
   return relaxTogether(joint, edges, shared.positions, options, progress);

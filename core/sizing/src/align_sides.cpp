@@ -1,13 +1,20 @@
 #include "align_sides.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 
 #include "narrow_faces.hpp"
+#include "qmcf/sizing/slits.hpp"
 
 namespace qmcf {
 namespace {
+
+/// Slits up to so many times as wide in the middle as where nodes are across from each other have as many divisions on
+/// both sides.
+constexpr double kHardlyOpen = 10.0;
 
 /// One side of a narrow face, from one end to the other, as its edges lie on it.
 struct Side {
@@ -41,20 +48,25 @@ struct Side {
   }
 };
 
+/// Places the nodes of an edge anew, where they may be at these places, too.
+void seekOnEdge(std::size_t edge, const std::vector<double>& sought, std::vector<EdgePlan>& plans,
+                std::vector<std::vector<double>>& places) {
+  EdgePlan& plan = plans[edge];
+  if (sought.empty() || plan.asGiven || plan.count < 2) return;
+  plan.sought.insert(plan.sought.end(), sought.begin(), sought.end());
+  std::sort(plan.sought.begin(), plan.sought.end());
+  places[edge] = placeNodesOnCurve(plan, plan.count).arcLength;
+}
+
 /// Places the nodes of a side anew, where it may be across from these shares of its length.
 void seek(const Side& side, const std::vector<double>& shares, std::vector<EdgePlan>& plans,
           std::vector<std::vector<double>>& places) {
   for (const Side::Piece& piece : side.pieces) {
-    EdgePlan& plan = plans[piece.edge];
-    if (plan.asGiven || plan.count < 2) continue;
     std::vector<double> sought;
     for (const double share : shares) {
       if (const auto s = side.onPiece(piece, share)) sought.push_back(*s);
     }
-    if (sought.empty()) continue;
-    plan.sought.insert(plan.sought.end(), sought.begin(), sought.end());
-    std::sort(plan.sought.begin(), plan.sought.end());
-    places[piece.edge] = placeNodesOnCurve(plan, plan.count).arcLength;
+    seekOnEdge(piece.edge, sought, plans, places);
   }
 }
 
@@ -85,6 +97,41 @@ void alignSides(const Brep& brep, std::vector<EdgePlan>& plans, std::vector<std:
     }
     std::sort(nodes.begin(), nodes.end());
     seek(follower, nodes, plans, places);
+  }
+}
+
+void levelSlits(const TriangleMesh& mesh, const Brep& brep, std::vector<EdgePlan>& plans) {
+  std::vector<EdgeCurve> curves;
+  for (const EdgePlan& plan : plans) curves.push_back(plan.curve);
+  const double width = kHardlyOpen * slitWidth(mesh);
+  for (const auto& [one, other] : findSlits(brep, curves, width)) {
+    EdgePlan& first = plans[static_cast<std::size_t>(one)];
+    EdgePlan& second = plans[static_cast<std::size_t>(other)];
+    const double middle = 0.5 * first.curve.length();
+    const bool isOpen = std::fabs(first.curve.length() - second.curve.length()) > width ||
+                        !acrossSlit(second.curve, first.curve.at(middle), width);
+    if (isOpen || first.asGiven || second.asGiven) continue;
+    const std::int32_t count = std::max(first.count, second.count);
+    first.count = first.least = count;
+    second.count = second.least = count;
+  }
+}
+
+void alignSlits(const TriangleMesh& mesh, const Brep& brep, std::vector<EdgePlan>& plans,
+                std::vector<std::vector<double>>& places) {
+  std::vector<EdgeCurve> curves;
+  for (const EdgePlan& plan : plans) curves.push_back(plan.curve);
+  const double width = slitWidth(mesh);
+  for (const auto& [one, other] : findSlits(brep, curves, width)) {
+    const bool isOneFirst =
+        places[static_cast<std::size_t>(one)].size() >= places[static_cast<std::size_t>(other)].size();
+    const auto leader = static_cast<std::size_t>(isOneFirst ? one : other);
+    const auto follower = static_cast<std::size_t>(isOneFirst ? other : one);
+    std::vector<double> sought;
+    for (const double s : places[leader]) {
+      if (const auto across = acrossSlit(curves[follower], curves[leader].at(s), width)) sought.push_back(*across);
+    }
+    seekOnEdge(follower, sought, plans, places);
   }
 }
 

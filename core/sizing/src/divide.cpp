@@ -209,6 +209,7 @@ DividedEdges divideEdges(const TriangleMesh& mesh, const Brep& brep, const SizeF
     if (e < asGiven.size() && asGiven[e] != 0) keepPoints(plans.back());
   }
   separateParallelEdges(plans, brep);
+  levelSlits(mesh, brep, plans);
 
   DividedEdges divided;
   makeEven(plans, brep);
@@ -225,6 +226,7 @@ DividedEdges divideEdges(const TriangleMesh& mesh, const Brep& brep, const SizeF
     places.push_back(plan.asGiven ? plan.curve.arcLength : placeNodesOnCurve(plan, plan.count).arcLength);
   }
   alignSides(brep, plans, places);
+  alignSlits(mesh, brep, plans, places);
   for (std::size_t e = 0; e < brep.edges.size(); ++e) {
     placeNodes(divided, plans[e], brep.edges[e], std::move(places[e]));
   }
