@@ -86,15 +86,13 @@ bool TopologicalCleanup::joinAlong(const TrianglePath& path) {
 }
 
 std::int64_t TopologicalCleanup::pathPass() {
-  const auto isTriangle = [this](FaceId f) { return mesh_.kind(f) != FaceKind::removed && mesh_.cornerCount(f) == 3; };
-  std::int64_t triangles = 0;
-  for (std::size_t i = 0; i < mesh_.faceCapacity(); ++i) triangles += isTriangle(FaceId(i)) ? 1 : 0;
-  if (triangles > kFewTriangles) return 0;
+  if (countElements(mesh_).triangles > kFewTriangles) return 0;
   std::int64_t changes = 0;
   note(TraceKind::pair);
   for (std::size_t i = 0; i < mesh_.faceCapacity(); ++i) {
-    if (!isTriangle(FaceId(i))) continue;
-    for (const TrianglePath& path : pathsToTriangles(mesh_, FaceId(i), kMostPaths)) {
+    const FaceId f(i);
+    if (mesh_.kind(f) == FaceKind::removed || mesh_.cornerCount(f) != 3) continue;
+    for (const TrianglePath& path : pathsToTriangles(mesh_, f, kMostPaths)) {
       if (path.crossed.size() < kShortest || !joinAlong(path)) continue;
       ++changes;
       break;

@@ -19,7 +19,7 @@ constexpr double kWorthwhile = 0.08;
 /// Quads between two triangles that become quads with them; more make a loop that is longer than there are fillings
 /// for.
 constexpr std::size_t kLongestBridge = 3;
-/// Bridges are looked for if there are so few triangles, or at most one of so many elements.
+/// Bridges are looked for if there are few triangles, or at most one of so many elements.
 constexpr std::int64_t kElementsPerTriangle = 5;
 
 }  // namespace
@@ -43,6 +43,16 @@ double worstAround(const EditMesh& mesh, const std::vector<VertexId>& vertices) 
   double worst = 1.0;
   for (const VertexId v : vertices) worst = std::min(worst, worstShapeAround(mesh, v));
   return worst;
+}
+
+ElementCounts countElements(const EditMesh& mesh) {
+  ElementCounts counts;
+  for (std::size_t i = 0; i < mesh.faceCapacity(); ++i) {
+    if (mesh.kind(FaceId(i)) == FaceKind::removed) continue;
+    ++counts.elements;
+    counts.triangles += mesh.cornerCount(FaceId(i)) == 3 ? 1 : 0;
+  }
+  return counts;
 }
 
 TopologicalCleanup::TopologicalCleanup(EditMesh& mesh, std::vector<std::int32_t> wanted, const RelaxationTarget& target,
@@ -267,14 +277,7 @@ bool TopologicalCleanup::bridgeTriangles(FaceId from, std::size_t quads) {
 
 std::int64_t TopologicalCleanup::bridgeAllTriangles() {
   std::int64_t changes = 0;
-  std::int64_t triangles = 0;
-  std::int64_t elements = 0;
-  for (std::size_t i = 0; i < mesh_.faceCapacity(); ++i) {
-    if (mesh_.kind(FaceId(i)) == FaceKind::removed) continue;
-    ++elements;
-    triangles += mesh_.cornerCount(FaceId(i)) == 3 ? 1 : 0;
-  }
-  // Where a front got stuck most elements are triangles, and the ways between them are past counting.
+  const auto [elements, triangles] = countElements(mesh_);
   const bool areFew = triangles <= kFewTriangles || kElementsPerTriangle * triangles <= elements;
   const std::size_t longest = areFew ? kLongestBridge : 0;
   for (std::size_t quads = 0; quads <= longest; ++quads) {

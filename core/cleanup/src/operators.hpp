@@ -99,7 +99,14 @@ std::vector<VertexId> withNeighbours(const EditMesh& mesh, const std::vector<Ver
 /// The worst faceShape() around the vertices.
 double worstAround(const EditMesh& mesh, const std::vector<VertexId>& vertices);
 
-/// Triangles that a pass over pairs of them is made for.
+struct ElementCounts {
+  std::int64_t elements = 0;
+  std::int64_t triangles = 0;  ///< Of these.
+};
+
+ElementCounts countElements(const EditMesh& mesh);
+
+/// Where there are more triangles a front got stuck, and the ways between them are past counting.
 inline constexpr std::int64_t kFewTriangles = 200;
 
 }  // namespace qmcf

@@ -15,10 +15,13 @@ namespace {
 /// A row can be sheared by one element without an irregular vertex, where a path turns there are two.
 constexpr double kTurnCost = 2.0;
 constexpr double kLongestPath = 25.0;
+/// Relaxation hardly turns back what is turned over in the beginning: shapes below the first cost this much more.
+constexpr double kPoorShape = 0.2;
+constexpr double kPoorCost = 10.0;
 
 /// The half-edges of a quadrilateral by which it is left, once it was entered across `entry`, one of its own.
 struct Exits {
-  HalfedgeId right;  ///< Beside the entry's end.
+  HalfedgeId right;  ///< Next to the entry, ahead is opposite to it.
   HalfedgeId ahead;
   HalfedgeId left;
 };
@@ -45,8 +48,8 @@ Hop hop(const EditMesh& mesh, VertexId apex, HalfedgeId crossed, HalfedgeId next
   return {{apex, o, p, t}, next == mesh.prev(entry) ? p : t};
 }
 
-/// Whether the diagonal parts the edge by which a quadrilateral is left from the one by which it was entered.
-bool parts(const EditMesh& mesh, HalfedgeId crossed, HalfedgeId next, bool fromOrigin) {
+/// Whether the edges by which a quadrilateral is entered and left are on different sides of the diagonal.
+bool separates(const EditMesh& mesh, HalfedgeId crossed, HalfedgeId next, bool fromOrigin) {
   const HalfedgeId entry = mesh.twin(crossed);
   return fromOrigin ? next != mesh.prev(entry) : next != mesh.next(entry);
 }
@@ -54,7 +57,7 @@ bool parts(const EditMesh& mesh, HalfedgeId crossed, HalfedgeId next, bool fromO
 double costOf(const EditMesh& mesh, const std::array<VertexId, 4>& quad) {
   const double shape = quadShape(mesh, quad);
   const double lack = 1.0 - shape;
-  return lack * lack + 10.0 * std::max(0.0, 0.2 - shape);
+  return lack * lack + kPoorCost * std::max(0.0, kPoorShape - shape);
 }
 
 VertexId apexOver(const EditMesh& mesh, HalfedgeId side) { return mesh.origin(mesh.prev(side)); }
@@ -124,7 +127,7 @@ std::vector<std::array<VertexId, 4>> quadsAlong(const EditMesh& mesh, const Tria
   for (std::size_t i = 0; i + 1 < crossed.size(); ++i) {
     std::array<Way, 2> longer;
     for (const bool fromOrigin : {false, true}) {
-      if (!parts(mesh, crossed[i], crossed[i + 1], fromOrigin)) continue;
+      if (!separates(mesh, crossed[i], crossed[i + 1], fromOrigin)) continue;
       Way& best = longer[fromOrigin ? 1 : 0];
       for (const Way& way : ways) {
         if (way.cost == kNever) continue;

@@ -11,11 +11,11 @@ namespace qmcf {
 /// A way from one triangle through quadrilaterals to another.
 struct TrianglePath {
   std::vector<HalfedgeId> crossed;  ///< The edges that are crossed, each in the face that is left.
-  double cost = 0.0;                ///< The quadrilaterals; a turn counts as more.
+  double cost = 0.0;                ///< As for pathsToTriangles().
 };
 
 /// The cheapest paths from a triangle to others, at most `most` and each to another one, the cheapest first. None costs
-/// more than kLongestPath, or passes through a face twice.
+/// more than 25, where a quadrilateral counts 1 and one in which the path turns 2, or passes through a face twice.
 std::vector<TrianglePath> pathsToTriangles(const EditMesh& mesh, FaceId from, std::size_t most);
 
 /// The quadrilaterals that the path's faces become, with the vertices that there are: the triangle merges with the half

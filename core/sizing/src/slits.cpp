@@ -61,7 +61,8 @@ std::vector<std::array<std::int32_t, 2>> findSlits(const Brep& brep, const std::
                                                    double width) {
   std::vector<BoxedEdge> boxes;
   for (std::size_t e = 0; e < brep.edges.size(); ++e) {
-    if (brep.edges[e].kind == EdgeKind::boundary) boxes.push_back(boxed(static_cast<std::int32_t>(e), curves[e], width));
+    if (brep.edges[e].kind == EdgeKind::boundary)
+      boxes.push_back(boxed(static_cast<std::int32_t>(e), curves[e], width));
   }
   std::sort(boxes.begin(), boxes.end(), [](const BoxedEdge& a, const BoxedEdge& b) {
     return a.low.x != b.low.x ? a.low.x < b.low.x : a.edge < b.edge;

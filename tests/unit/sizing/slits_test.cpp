@@ -17,8 +17,8 @@ namespace {
 /// A square with a crack from one side to its middle, `open` wide there. The lower side of the crack is shorter.
 TriangleMesh crackedSquare(double open) {
   TriangleMesh mesh;
-  mesh.positions = {{0, 0, 0},   {1, 0.5 * open, 0}, {1, 1, 0},           {-1, 1, 0},
-                    {-1, -1, 0}, {0.94, -1, 0},      {0.94, -0.5 * open, 0}};
+  mesh.positions = {{0, 0, 0},     {1, 0.5 * open, 0},    {1, 1, 0}, {-1, 1, 0}, {-1, -1, 0},
+                    {0.94, -1, 0}, {0.94, -0.5 * open, 0}};
   mesh.triangles = {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 5}, {0, 5, 6}};
   return mesh;
 }
@@ -60,7 +60,7 @@ TEST(Slits, AreTheSidesOfACrack) {
 TEST(Slits, NeedNoCommonVertex) {
   // Two strips beside each other; the second begins and ends elsewhere.
   TriangleMesh mesh;
-  mesh.positions = {{0, 0, 0},    {2, 0, 0},    {2, 1, 0},        {0, 1, 0},
+  mesh.positions = {{0, 0, 0},    {2, 0, 0},    {2, 1, 0},       {0, 1, 0},
                     {0.3, -1, 0}, {1.4, -1, 0}, {1.4, -1e-6, 0}, {0.3, -1e-6, 0}};
   mesh.triangles = {{0, 1, 2}, {0, 2, 3}, {4, 5, 6}, {4, 6, 7}};
   EXPECT_NEAR(slitWidth(mesh), 1e-5 * std::sqrt(8.0), 1e-12);
