@@ -98,6 +98,17 @@ std::vector<VertexId> cornersOf(const EditMesh& mesh, const std::vector<FaceId>&
   return corners;
 }
 
+std::vector<FaceId> facesAround(const EditMesh& mesh, const std::vector<VertexId>& vertices) {
+  std::vector<FaceId> faces;
+  for (const VertexId v : vertices) {
+    if (!mesh.alive(v)) continue;
+    mesh.forEachOutgoing(v, [&](HalfedgeId h) { faces.push_back(mesh.face(h)); });
+  }
+  std::sort(faces.begin(), faces.end());
+  faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+  return faces;
+}
+
 int irregularity(bool boundary, int excess) {
   constexpr int kReflex = 4;
   return boundary && excess < 0 ? kReflex * excess * excess : excess * excess;

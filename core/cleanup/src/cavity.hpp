@@ -77,6 +77,9 @@ class Cavity {
 /// The vertices of the faces, ascending.
 std::vector<VertexId> cornersOf(const EditMesh& mesh, const std::vector<FaceId>& faces);
 
+/// The faces around those of the vertices that are still there, ascending.
+std::vector<FaceId> facesAround(const EditMesh& mesh, const std::vector<VertexId>& vertices);
+
 /// What a vertex adds to the irregularity energy. A boundary vertex with too few elements has a straight or reflex
 /// corner in one of them, which no relaxation can mend.
 int irregularity(bool boundary, int excess);

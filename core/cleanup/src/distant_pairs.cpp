@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <optional>
 
 #include "cavity.hpp"
 #include "operators.hpp"
@@ -14,8 +13,6 @@ namespace qmcf {
 namespace {
 
 constexpr std::size_t kMostPaths = 4;
-/// Shorter ways are bridged by the small operators, with any quads that fit.
-constexpr std::size_t kShortest = 5;
 constexpr int kSettleSweeps = 12;
 /// Unless there were worse ones before.
 constexpr double kLeastShape = 0.3;
@@ -23,10 +20,7 @@ constexpr double kLeastShape = 0.3;
 constexpr double kWorth = 0.1;
 
 double meanShapeAround(const EditMesh& mesh, const std::vector<VertexId>& vertices) {
-  std::vector<FaceId> faces;
-  for (const VertexId v : vertices) mesh.forEachOutgoing(v, [&](HalfedgeId h) { faces.push_back(mesh.face(h)); });
-  std::sort(faces.begin(), faces.end());
-  faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+  const std::vector<FaceId> faces = facesAround(mesh, vertices);
   double sum = 0.0;
   for (const FaceId f : faces) sum += faceShape(mesh, f);
   return sum / static_cast<double>(faces.size());
@@ -49,11 +43,11 @@ std::vector<std::array<int, 4>> cellsOf(const std::vector<std::array<VertexId, 4
 
 bool TopologicalCleanup::joinAlong(const TrianglePath& path) {
   cavity_.clear();
-  for (const HalfedgeId h : path.crossed) cavity_.add(mesh_.face(h));
-  cavity_.add(mesh_.face(mesh_.twin(path.crossed.back())));
+  for (const HalfedgeId h : path) cavity_.add(mesh_.face(h));
+  cavity_.add(mesh_.face(mesh_.twin(path.back())));
   const auto loop = cavity_.boundaryLoop(mesh_);
   // A path that touches itself has other edges inside than those that are crossed.
-  if (!loop || loop->size() != 2 * path.crossed.size() + 2) return false;
+  if (!loop || loop->size() != 2 * path.size() + 2) return false;
   std::vector<VertexId> vertices;
   for (const HalfedgeId h : *loop) vertices.push_back(mesh_.origin(h));
   const auto cells = cellsOf(quadsAlong(mesh_, path), vertices);
@@ -93,7 +87,8 @@ std::int64_t TopologicalCleanup::pathPass() {
     const FaceId f(i);
     if (mesh_.kind(f) == FaceKind::removed || mesh_.cornerCount(f) != 3) continue;
     for (const TrianglePath& path : pathsToTriangles(mesh_, f, kMostPaths)) {
-      if (path.crossed.size() < kShortest || !joinAlong(path)) continue;
+      // Shorter ones are bridged by the small operators, with any quads that fit.
+      if (path.size() <= kLongestBridge + 1 || !joinAlong(path)) continue;
       ++changes;
       break;
     }

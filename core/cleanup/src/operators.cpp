@@ -16,9 +16,6 @@ constexpr int kSettleSweeps = 4;
 /// Where an element is poor, a change that makes nothing more regular is welcome if the worst shape gains this much.
 constexpr double kPoor = 0.4;
 constexpr double kWorthwhile = 0.08;
-/// Quads between two triangles that become quads with them; more make a loop that is longer than there are fillings
-/// for.
-constexpr std::size_t kLongestBridge = 3;
 /// Bridges are looked for if there are few triangles, or at most one of so many elements.
 constexpr std::int64_t kElementsPerTriangle = 5;
 

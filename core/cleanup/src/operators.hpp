@@ -106,6 +106,10 @@ struct ElementCounts {
 
 ElementCounts countElements(const EditMesh& mesh);
 
+/// Quads between two triangles that become quads with them; more make a loop that is longer than there are fillings
+/// for.
+inline constexpr std::size_t kLongestBridge = 3;
+
 /// Where there are more triangles a front got stuck, and the ways between them are past counting.
 inline constexpr std::int64_t kFewTriangles = 200;
 

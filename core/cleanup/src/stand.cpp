@@ -7,6 +7,7 @@
 #include <numeric>
 #include <optional>
 
+#include "cavity.hpp"
 #include "qmcf/base/math.hpp"
 #include "qmcf/quality/turned_over.hpp"
 #include "qmcf/spatial/surface_walk.hpp"
@@ -187,13 +188,7 @@ bool moveToBest(EditMesh& mesh, const RelaxationTarget& target, VertexId v) {
 
 Damage damageAround(const EditMesh& mesh, const RelaxationTarget& target, const std::vector<VertexId>& vertices,
                     const Damage& most) {
-  std::vector<FaceId> faces;
-  for (const VertexId v : vertices) {
-    if (!mesh.alive(v)) continue;
-    mesh.forEachOutgoing(v, [&](HalfedgeId h) { faces.push_back(mesh.face(h)); });
-  }
-  std::sort(faces.begin(), faces.end());
-  faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+  const std::vector<FaceId> faces = facesAround(mesh, vertices);
   // Shapes are found out with much less work.
   Damage byShape;
   for (const FaceId f : faces) byShape += shapeOf(mesh, f);

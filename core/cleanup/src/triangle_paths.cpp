@@ -1,6 +1,7 @@
 #include "triangle_paths.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <limits>
 #include <queue>
 #include <tuple>
@@ -18,17 +19,6 @@ constexpr double kLongestPath = 25.0;
 /// Relaxation hardly turns back what is turned over in the beginning: shapes below the first cost this much more.
 constexpr double kPoorShape = 0.2;
 constexpr double kPoorCost = 10.0;
-
-/// The half-edges of a quadrilateral by which it is left, once it was entered across `entry`, one of its own.
-struct Exits {
-  HalfedgeId right;  ///< Next to the entry, ahead is opposite to it.
-  HalfedgeId ahead;
-  HalfedgeId left;
-};
-
-Exits exitsOf(const EditMesh& mesh, HalfedgeId entry) {
-  return {mesh.next(entry), mesh.next(mesh.next(entry)), mesh.prev(entry)};
-}
 
 /// What a quadrilateral and the triangle beside it become.
 struct Hop {
@@ -63,15 +53,14 @@ double costOf(const EditMesh& mesh, const std::array<VertexId, 4>& quad) {
 VertexId apexOver(const EditMesh& mesh, HalfedgeId side) { return mesh.origin(mesh.prev(side)); }
 
 /// Turns the half-edges from a search tree into a path; empty if it passes through a face twice.
-TrianglePath pathTo(const EditMesh& mesh, HalfedgeId last, double cost,
-                    const std::unordered_map<std::size_t, HalfedgeId>& before) {
-  TrianglePath path{{}, cost};
+TrianglePath pathTo(const EditMesh& mesh, HalfedgeId last, const std::unordered_map<std::size_t, HalfedgeId>& before) {
+  TrianglePath path;
   std::vector<FaceId> faces{mesh.face(mesh.twin(last))};
   for (HalfedgeId h = last; h.valid(); h = before.at(h.index())) {
-    path.crossed.push_back(h);
+    path.push_back(h);
     faces.push_back(mesh.face(h));
   }
-  std::reverse(path.crossed.begin(), path.crossed.end());
+  std::reverse(path.begin(), path.end());
   std::sort(faces.begin(), faces.end());
   if (std::adjacent_find(faces.begin(), faces.end()) != faces.end()) return {};
   return path;
@@ -97,15 +86,15 @@ std::vector<TrianglePath> pathsToTriangles(const EditMesh& mesh, FaceId from, st
     const FaceId face = mesh.face(entry);
     if (mesh.cornerCount(face) == 3) {
       if (std::find(reached.begin(), reached.end(), face) != reached.end()) continue;
-      TrianglePath path = pathTo(mesh, crossed, cost, before);
-      if (path.crossed.empty()) continue;
+      TrianglePath path = pathTo(mesh, crossed, before);
+      if (path.empty()) continue;
       reached.push_back(face);
       paths.push_back(std::move(path));
       continue;
     }
-    const Exits exits = exitsOf(mesh, entry);
-    for (const HalfedgeId next : {exits.right, exits.ahead, exits.left}) {
-      const double sum = cost + (next == exits.ahead ? 1.0 : kTurnCost);
+    const HalfedgeId ahead = mesh.next(mesh.next(entry));
+    for (const HalfedgeId next : {mesh.next(entry), ahead, mesh.prev(entry)}) {
+      const double sum = cost + (next == ahead ? 1.0 : kTurnCost);
       if (!mesh.twin(next).valid() || sum > kLongestPath || before.contains(next.index())) continue;
       queue.emplace(sum, next.index(), at);
     }
@@ -113,7 +102,7 @@ std::vector<TrianglePath> pathsToTriangles(const EditMesh& mesh, FaceId from, st
   return paths;
 }
 
-std::vector<std::array<VertexId, 4>> quadsAlong(const EditMesh& mesh, const TrianglePath& path) {
+std::vector<std::array<VertexId, 4>> quadsAlong(const EditMesh& mesh, const TrianglePath& crossed) {
   constexpr double kNever = std::numeric_limits<double>::infinity();
   /// The best way so far that ends with one of the two diagonals.
   struct Way {
@@ -121,7 +110,6 @@ std::vector<std::array<VertexId, 4>> quadsAlong(const EditMesh& mesh, const Tria
     VertexId apex;
     std::vector<std::array<VertexId, 4>> quads;
   };
-  const std::vector<HalfedgeId>& crossed = path.crossed;
   std::array<Way, 2> ways;
   ways[0] = {0.0, apexOver(mesh, crossed.front()), {}};
   for (std::size_t i = 0; i + 1 < crossed.size(); ++i) {

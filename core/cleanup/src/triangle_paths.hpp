@@ -8,11 +8,9 @@
 
 namespace qmcf {
 
-/// A way from one triangle through quadrilaterals to another.
-struct TrianglePath {
-  std::vector<HalfedgeId> crossed;  ///< The edges that are crossed, each in the face that is left.
-  double cost = 0.0;                ///< As for pathsToTriangles().
-};
+/// A way from one triangle through quadrilaterals to another: the edges that are crossed, each in the face that is
+/// left.
+using TrianglePath = std::vector<HalfedgeId>;
 
 /// The cheapest paths from a triangle to others, at most `most` and each to another one, the cheapest first. None costs
 /// more than 25, where a quadrilateral counts 1 and one in which the path turns 2, or passes through a face twice.

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "qmcf/base/bits.hpp"
+#include "qmcf/base/bounding_box.hpp"
 #include "qmcf/base/math.hpp"
 #include "qmcf/mesh/sharp_angle.hpp"
 #include "screening.hpp"
@@ -74,13 +75,9 @@ void weld(const TriangleMesh& mesh, Reference& reference) {
 
 double diagonalOf(const std::vector<Vec3>& positions) {
   if (positions.empty()) return 0.0;
-  Vec3 low = positions[0];
-  Vec3 high = positions[0];
-  for (const Vec3& p : positions) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-  }
-  return distance(low, high);
+  BoundingBox box;
+  for (const Vec3& p : positions) box.include(p);
+  return box.diagonal();
 }
 
 /// Normals, area and the tree over the triangles whose normals can be trusted.

@@ -48,6 +48,13 @@ struct Side {
   }
 };
 
+std::vector<EdgeCurve> curvesOf(const std::vector<EdgePlan>& plans) {
+  std::vector<EdgeCurve> curves;
+  curves.reserve(plans.size());
+  for (const EdgePlan& plan : plans) curves.push_back(plan.curve);
+  return curves;
+}
+
 /// Places the nodes of an edge anew, where they may be at these places, too.
 void seekOnEdge(std::size_t edge, const std::vector<double>& sought, std::vector<EdgePlan>& plans,
                 std::vector<std::vector<double>>& places) {
@@ -101,8 +108,7 @@ void alignSides(const Brep& brep, std::vector<EdgePlan>& plans, std::vector<std:
 }
 
 void levelSlits(const TriangleMesh& mesh, const Brep& brep, std::vector<EdgePlan>& plans) {
-  std::vector<EdgeCurve> curves;
-  for (const EdgePlan& plan : plans) curves.push_back(plan.curve);
+  const std::vector<EdgeCurve> curves = curvesOf(plans);
   const double width = kHardlyOpen * slitWidth(mesh);
   for (const auto& [one, other] : findSlits(brep, curves, width)) {
     EdgePlan& first = plans[static_cast<std::size_t>(one)];
@@ -119,8 +125,7 @@ void levelSlits(const TriangleMesh& mesh, const Brep& brep, std::vector<EdgePlan
 
 void alignSlits(const TriangleMesh& mesh, const Brep& brep, std::vector<EdgePlan>& plans,
                 std::vector<std::vector<double>>& places) {
-  std::vector<EdgeCurve> curves;
-  for (const EdgePlan& plan : plans) curves.push_back(plan.curve);
+  const std::vector<EdgeCurve> curves = curvesOf(plans);
   const double width = slitWidth(mesh);
   for (const auto& [one, other] : findSlits(brep, curves, width)) {
     const bool isOneFirst =

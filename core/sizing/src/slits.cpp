@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "qmcf/base/bounding_box.hpp"
+
 namespace qmcf {
 namespace {
 
@@ -12,26 +14,8 @@ constexpr double kSameDirection = 0.999;
 /// A boundary edge and the box around it.
 struct BoxedEdge {
   std::int32_t edge = kNone;
-  Vec3 low;
-  Vec3 high;
+  BoundingBox box;
 };
-
-BoxedEdge boxed(std::int32_t edge, const EdgeCurve& curve, double margin) {
-  const Vec3 around{margin, margin, margin};
-  BoxedEdge box{edge, curve.points.front(), curve.points.front()};
-  for (const Vec3& p : curve.points) {
-    box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y), std::min(box.low.z, p.z)};
-    box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y), std::max(box.high.z, p.z)};
-  }
-  box.low = box.low - around;
-  box.high = box.high + around;
-  return box;
-}
-
-bool overlap(const BoxedEdge& a, const BoxedEdge& b) {
-  return a.low.x <= b.high.x && b.low.x <= a.high.x && a.low.y <= b.high.y && b.low.y <= a.high.y &&
-         a.low.z <= b.high.z && b.low.z <= a.high.z;
-}
 
 /// Where an edge leads from its start or its end.
 Vec3 directionFrom(const EdgeCurve& curve, bool end) {
@@ -59,19 +43,21 @@ bool mayRunTogether(const Brep& brep, const std::vector<EdgeCurve>& curves, std:
 
 std::vector<std::array<std::int32_t, 2>> findSlits(const Brep& brep, const std::vector<EdgeCurve>& curves,
                                                    double width) {
-  std::vector<BoxedEdge> boxes;
+  std::vector<BoxedEdge> boxed;
   for (std::size_t e = 0; e < brep.edges.size(); ++e) {
-    if (brep.edges[e].kind == EdgeKind::boundary)
-      boxes.push_back(boxed(static_cast<std::int32_t>(e), curves[e], width));
+    if (brep.edges[e].kind != EdgeKind::boundary) continue;
+    BoundingBox& box = boxed.emplace_back(BoxedEdge{static_cast<std::int32_t>(e), {}}).box;
+    for (const Vec3& p : curves[e].points) box.include(p);
+    box.widen(width);
   }
-  std::sort(boxes.begin(), boxes.end(), [](const BoxedEdge& a, const BoxedEdge& b) {
-    return a.low.x != b.low.x ? a.low.x < b.low.x : a.edge < b.edge;
+  std::sort(boxed.begin(), boxed.end(), [](const BoxedEdge& a, const BoxedEdge& b) {
+    return a.box.low.x != b.box.low.x ? a.box.low.x < b.box.low.x : a.edge < b.edge;
   });
   std::vector<std::array<std::int32_t, 2>> slits;
-  for (std::size_t i = 0; i < boxes.size(); ++i) {
-    for (std::size_t j = i + 1; j < boxes.size() && boxes[j].low.x <= boxes[i].high.x; ++j) {
-      const auto [one, other] = std::minmax(boxes[i].edge, boxes[j].edge);
-      if (overlap(boxes[i], boxes[j]) && mayRunTogether(brep, curves, one, other)) slits.push_back({one, other});
+  for (std::size_t i = 0; i < boxed.size(); ++i) {
+    for (std::size_t j = i + 1; j < boxed.size() && boxed[j].box.low.x <= boxed[i].box.high.x; ++j) {
+      const auto [one, other] = std::minmax(boxed[i].edge, boxed[j].edge);
+      if (boxed[i].box.meets(boxed[j].box) && mayRunTogether(brep, curves, one, other)) slits.push_back({one, other});
     }
   }
   std::sort(slits.begin(), slits.end());
@@ -80,13 +66,9 @@ std::vector<std::array<std::int32_t, 2>> findSlits(const Brep& brep, const std::
 
 double slitWidth(const TriangleMesh& mesh) {
   if (mesh.positions.empty()) return 0.0;
-  Vec3 low = mesh.positions.front();
-  Vec3 high = low;
-  for (const Vec3& p : mesh.positions) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-  }
-  return 1e-5 * distance(low, high);
+  BoundingBox box;
+  for (const Vec3& p : mesh.positions) box.include(p);
+  return 1e-5 * box.diagonal();
 }
 
 std::optional<double> acrossSlit(const EdgeCurve& curve, const Vec3& point, double width) {

@@ -1,6 +1,6 @@
 #include "bodies.hpp"
 
-#include "bounding_box.hpp"
+#include "qmcf/base/bounding_box.hpp"
 
 namespace qmcf::detail {
 

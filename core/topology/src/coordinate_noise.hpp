@@ -4,7 +4,7 @@
 #include <limits>
 #include <vector>
 
-#include "bounding_box.hpp"
+#include "qmcf/base/bounding_box.hpp"
 
 namespace qmcf::detail {
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <queue>
 
-#include "bounding_box.hpp"
 #include "coordinate_noise.hpp"
+#include "qmcf/base/bounding_box.hpp"
 #include "qmcf/base/math.hpp"
 
 namespace qmcf::detail {

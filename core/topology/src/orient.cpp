@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "bounding_box.hpp"
+#include "qmcf/base/bounding_box.hpp"
 #include "qmcf/base/math.hpp"
 #include "repair_state.hpp"
 #include "triangle_edges.hpp"

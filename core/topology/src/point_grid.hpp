@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "bounding_box.hpp"
+#include "qmcf/base/bounding_box.hpp"
 #include "qmcf/base/vec.hpp"
 
 namespace qmcf::detail {

@@ -10,8 +10,8 @@
 #include <numeric>
 #include <string>
 
-#include "bounding_box.hpp"
 #include "coordinate_noise.hpp"
+#include "qmcf/base/bounding_box.hpp"
 #include "qmcf/mesh/ids.hpp"
 #include "repair_state.hpp"
 

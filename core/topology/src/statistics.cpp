@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "bounding_box.hpp"
+#include "qmcf/base/bounding_box.hpp"
 #include "triangle_edges.hpp"
 #include "weld.hpp"
 
@@ -116,7 +116,7 @@ void countTopology(const Triangles& triangles, std::size_t vertexCount, MeshStat
 MeshStatistics meshStatistics(const TriangleMesh& mesh) {
   MeshStatistics statistics;
   statistics.triangles = static_cast<std::int64_t>(mesh.triangles.size());
-  detail::BoundingBox box;
+  BoundingBox box;
   for (const auto& corners : mesh.triangles) {
     for (const std::int32_t v : corners) box.include(mesh.positions[static_cast<std::size_t>(v)]);
   }

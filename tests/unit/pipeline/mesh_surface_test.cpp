@@ -15,6 +15,7 @@
 #include "qmcf/base/math.hpp"
 #include "qmcf/base/random.hpp"
 #include "qmcf/pipeline/report_json.hpp"
+#include "sizing/parts.hpp"
 #include "topology/shapes.hpp"
 
 namespace qmcf {
@@ -288,20 +289,9 @@ TEST(MeshSurface, MeshesOneOfTwoLayersThatElementsCanNotTellApart) {
   for (const FaceReport& face : result.faces) EXPECT_EQ(face.method == "omitted", !face.reason.empty());
 }
 
-/// A plate with a crack from one of its sides to its middle, wider there than what repair joins. One side of the crack
-/// is shorter, so that equal divisions of both are not across from each other.
-TriangleMesh crackedPlate() {
-  TriangleMesh plate;
-  plate.positions = {{0, 0, 0}, {1, 3e-6, 0}, {1, 1, 0}, {-1, 1, 0}, {-1, -1, 0}, {0.94, -1, 0}, {0.94, -3e-6, 0}};
-  plate.triangles = {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 5}, {0, 5, 6}};
-  return plate;
-}
-
 TEST(MeshSurface, PutsNodesAcrossFromEachOtherOnBothSidesOfACrack) {
-  for (const std::int64_t quads : {50, 100, 200, 400}) {
-    const MeshResult result = mesh(crackedPlate(), quads);
-    expectGood(result);
-  }
+  // The crack is wider than what repair joins.
+  for (const std::int64_t quads : {50, 100, 200, 400}) expectGood(mesh(parts::crackedSquare(6e-6), quads));
 }
 
 /// A triangular plate with a flat pyramid over the triangle in its middle.

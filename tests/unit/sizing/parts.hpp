@@ -19,6 +19,16 @@ inline void addQuad(TriangleMesh& mesh, std::int32_t a, std::int32_t b, std::int
   mesh.triangles.push_back({a, c, d});
 }
 
+/// A square with a crack from one side to its middle, `open` wide there. The lower side of the crack is shorter, so
+/// that equal divisions of both are not across from each other.
+inline TriangleMesh crackedSquare(double open) {
+  TriangleMesh mesh;
+  mesh.positions = {{0, 0, 0},     {1, 0.5 * open, 0},    {1, 1, 0}, {-1, 1, 0}, {-1, -1, 0},
+                    {0.94, -1, 0}, {0.94, -0.5 * open, 0}};
+  mesh.triangles = {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 5}, {0, 5, 6}};
+  return mesh;
+}
+
 inline TriangleMesh box(double x, double y, double z) {
   TriangleMesh mesh;
   for (int i = 0; i < 8; ++i) {

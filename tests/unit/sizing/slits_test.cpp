@@ -14,22 +14,13 @@
 namespace qmcf {
 namespace {
 
-/// A square with a crack from one side to its middle, `open` wide there. The lower side of the crack is shorter.
-TriangleMesh crackedSquare(double open) {
-  TriangleMesh mesh;
-  mesh.positions = {{0, 0, 0},     {1, 0.5 * open, 0},    {1, 1, 0}, {-1, 1, 0}, {-1, -1, 0},
-                    {0.94, -1, 0}, {0.94, -0.5 * open, 0}};
-  mesh.triangles = {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 5}, {0, 5, 6}};
-  return mesh;
-}
-
 std::vector<EdgeCurve> curvesOf(const TriangleMesh& mesh, const Brep& brep) {
   std::vector<EdgeCurve> curves;
   for (const BrepEdge& edge : brep.edges) curves.push_back(edgeCurve(mesh, edge));
   return curves;
 }
 
-/// The slits that are nowhere wider in the middle of their first edge than where nodes are put across from each other.
+/// The slits that are no wider than slitWidth() in the middle of their first edge.
 std::vector<std::array<std::int32_t, 2>> closeSlits(const TriangleMesh& mesh, const Brep& brep) {
   const std::vector<EdgeCurve> curves = curvesOf(mesh, brep);
   const double width = slitWidth(mesh);
@@ -43,7 +34,7 @@ std::vector<std::array<std::int32_t, 2>> closeSlits(const TriangleMesh& mesh, co
 
 TEST(Slits, AreTheSidesOfACrack) {
   for (const double open : {1e-7, 1e-5}) {
-    const TriangleMesh mesh = crackedSquare(open);
+    const TriangleMesh mesh = parts::crackedSquare(open);
     const Brep brep = parts::brepOf(mesh);
     const auto slits = closeSlits(mesh, brep);
     ASSERT_EQ(slits.size(), 1U) << open;
@@ -52,7 +43,7 @@ TEST(Slits, AreTheSidesOfACrack) {
     EXPECT_NEAR(both, 1.94, 1e-6) << open;
   }
   for (const double open : {1e-2, 0.2}) {
-    const TriangleMesh mesh = crackedSquare(open);
+    const TriangleMesh mesh = parts::crackedSquare(open);
     EXPECT_TRUE(closeSlits(mesh, parts::brepOf(mesh)).empty()) << open;
   }
 }
@@ -79,7 +70,7 @@ TEST(Slits, ArcLengthAcrossIsThatOfTheNearestPlace) {
 }
 
 TEST(Slits, HaveNodesAcrossFromEachOther) {
-  const TriangleMesh mesh = crackedSquare(4e-6);
+  const TriangleMesh mesh = parts::crackedSquare(4e-6);
   const Brep brep = parts::brepOf(mesh);
   SizingOptions options;
   options.size = 0.13;
