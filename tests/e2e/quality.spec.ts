@@ -72,6 +72,27 @@ test('the original Q-Morph can be compared with', async ({ page }, info) => {
   await expect(page.getByText('The settings have changed since this mesh was made.')).toBeVisible();
 });
 
+test('triangles become quads where there shall be no others', async ({ page }, info) => {
+  await page.goto('./');
+  const app = new App(page);
+  await app.openSample('plate_with_holes.stl');
+  await app.mesh(800);
+  const result = page.getByRole('region', { name: 'Result' });
+  await expect(result).toContainText(/[1-9]\d* triangles/);
+  await page.getByText('Features and directions').click();
+  await page.getByText('Quadrilaterals only').click();
+  await expect(page.getByText('The settings have changed since this mesh was made.')).toBeVisible();
+  await app.mesh(800);
+  await expect(result).not.toContainText(/[1-9]\d* triangles/);
+  const saved = page.waitForEvent('download');
+  await app.download.click();
+  const path = info.outputPath('page.obj');
+  await (await saved).saveAs(path);
+  const reference = info.outputPath('native.obj');
+  native('mesh', sample('plate_with_holes.stl'), '-o', reference, '--quads', '800', '--all-quad', '--quiet');
+  expect(readFileSync(path).equals(readFileSync(reference))).toBe(true);
+});
+
 test('the report says how the faces were meshed, and an element says on which face it lies', async ({ page }) => {
   await page.goto('./');
   const app = new App(page);

@@ -250,6 +250,20 @@ test('a chord error makes the same smaller elements as in the native program', a
   assert.ok(fine.report.quality.meanDistance < plain.report.quality.meanDistance / 2);
 });
 
+test('with quadrilaterals only the last triangles are paired, or all elements are cut', async () => {
+  const output = inProject('quads.native.obj');
+  const run = native('mesh', `${root}/samples/plate_with_holes.stl`, '-o', output, '--quads', '800', '--all-quad', '--quiet');
+  assert.equal(run.status, 0, run.stderr);
+  const paired = await mesher.mesh(sample('plate_with_holes.stl'), { quads: 800, allQuad: true });
+  assert.ok(Buffer.from(await paired.file('obj')).equals(readFileSync(output)), 'the files differ');
+  assert.equal(paired.report.quality.triangles, 0);
+  assert.equal(paired.report.elementsCut, false);
+  const triangle = new TextEncoder().encode('v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n');
+  const cut = await mesher.mesh(triangle, { size: 5, allQuad: true });
+  assert.equal(cut.report.quality.triangles, 0);
+  assert.equal(cut.report.elementsCut, true);
+});
+
 test('sizes that fit the field are those of the native program', async () => {
   const output = inProject('fitted.native.obj');
   const run = native('mesh', `${root}/samples/wavy_sheet.obj`, '-o', output, '--quads', '800', '--quiet');

@@ -38,16 +38,6 @@ TEST(Property, FallsBackOnThePartsOwnTriangles) {
                           [](const FaceReport& face) { return face.method == "given"; }));
 }
 
-TEST(Property, GivesFacesUpFromTheMeshThatIsKept) {
-  // The last attempt here had its faulty face made of the part's own triangles already, in vain; the one before it,
-  // which is kept, had not.
-  SilentProgress silent;
-  MeshResult result;
-  EXPECT_EQ(runCase(makeCase(170069, kLargeCases), silent, &result), std::vector<std::string>{});
-  EXPECT_TRUE(std::any_of(result.faces.begin(), result.faces.end(),
-                          [](const FaceReport& face) { return face.method == "given"; }));
-}
-
 TEST(Property, CasesAreTheSameEachTime) {
   const Case one = makeCase(7, kSmallCases);
   const Case two = makeCase(7, kSmallCases);

@@ -54,7 +54,10 @@ export interface MeshOptions {
   repair?: boolean | undefined;
   /** Default `qmcf`. */
   mode?: Mode | undefined;
-  /** True: no triangles; a mesh of twice the size whose elements are cut at the middles of their edges. Default false. */
+  /**
+   * True: no triangles. Those that are left become quadrilaterals in pairs, with all that lies between two of them; where
+   * that is not possible, every element of a mesh of twice the size is cut at the middles of its edges. Default false.
+   */
   allQuad?: boolean | undefined;
   /** Largest slope of the size field before it settles inside faces, above 0 and at most 1. Default 0.25. */
   gradation?: number | undefined;
@@ -416,6 +419,8 @@ export interface MeshReport {
   readonly heldPlaces: number;
   /** Nodes that the others moved along their edges by more than a tenth of the element size. */
   readonly slidNodes: number;
+  /** Whether every element was cut, since triangles could not all be paired: {@link MeshOptions.allQuad}. */
+  readonly elementsCut: boolean;
   /** Whether sizes vary to fit the field, by 5 % at least: {@link MeshOptions.fitSizes}. */
   readonly fittedSizes: boolean;
   readonly sizing: SizeSources;

@@ -29,6 +29,8 @@ export interface Settings {
   readonly fitSizes: boolean | undefined;
   readonly featureAngle: number;
   readonly mode: Mode;
+  /** No triangles. */
+  readonly allQuad: boolean;
   readonly gradation: number;
   readonly alignBoundary: boolean;
   readonly alignSharp: boolean;
@@ -114,6 +116,7 @@ export const initialState: State = {
     fitSizes: undefined,
     featureAngle: 30,
     mode: 'qmcf',
+    allQuad: false,
     gradation: 0.25,
     alignBoundary: true,
     alignSharp: true,
@@ -153,9 +156,9 @@ export function optionsOf(settings: Settings): MeshOptions {
   return { ...rest, ...(sizes && { sizes: sizes.values }), ...(sizedBy === 'size' && { size }) };
 }
 
-/** The same for the field, which is there in one mode only, and there before sizes can fit it. */
+/** The same for the field, which is there in one mode only, and there before sizes can fit it and quads are made. */
 export function fieldSettings(settings: Settings): Settings {
-  return { ...settings, mode: 'qmcf', fitSizes: false };
+  return { ...settings, mode: 'qmcf', allQuad: false, fitSizes: false };
 }
 
 /** Equal for settings that give equal results. */

@@ -169,6 +169,10 @@ Result<CleanupResult> cleanUp(const FaceMesh& mesh, const Patch& patch, const Tr
     relaxation.wake(topology.takeTouched());
     if (changes == 0) break;
   }
+  if (options.pairAll) {
+    topology.pairAll(progress);
+    relaxation.wake(topology.takeTouched());
+  }
   note(TraceKind::smooth);
   for (std::int32_t sweep = 0; sweep < options.sweeps; ++sweep) {
     if (!progress.report(Stage::cleanup, 0.7 + 0.3 * sweep / options.sweeps)) return cancelledError();

@@ -1,22 +1,23 @@
 // Triangles far from each other become quads together with all that lies on a way between them: along a row of
 // quadrilaterals that is a shear by one element, with irregular vertices at its ends and where it turns only.
 #include <algorithm>
-#include <array>
 #include <cstddef>
 
 #include "cavity.hpp"
 #include "operators.hpp"
 #include "qmcf/mesh/element_shape.hpp"
-#include "triangle_paths.hpp"
+#include "triangle_ways.hpp"
 
 namespace qmcf {
 namespace {
 
-constexpr std::size_t kMostPaths = 4;
+constexpr std::size_t kMostWays = 4;
+/// About 25 quadrilaterals in a row.
+constexpr double kMostCost = 3.0;
 constexpr int kSettleSweeps = 12;
-/// Unless there were worse ones before.
+/// What a pair may leave, unless there were worse elements before, and how much of the mean shape around the way it is
+/// worth.
 constexpr double kLeastShape = 0.3;
-/// How much of the mean shape around the path two triangles less are worth.
 constexpr double kWorth = 0.1;
 
 double meanShapeAround(const EditMesh& mesh, const std::vector<VertexId>& vertices) {
@@ -26,32 +27,12 @@ double meanShapeAround(const EditMesh& mesh, const std::vector<VertexId>& vertic
   return sum / static_cast<double>(faces.size());
 }
 
-/// The quads as for EditMesh::fill(), of a region whose boundary has these vertices.
-std::vector<std::array<int, 4>> cellsOf(const std::vector<std::array<VertexId, 4>>& quads,
-                                        const std::vector<VertexId>& boundary) {
-  std::vector<std::array<int, 4>> cells;
-  for (const auto& quad : quads) {
-    auto& cell = cells.emplace_back();
-    for (std::size_t i = 0; i < cell.size(); ++i) {
-      cell[i] = static_cast<int>(std::find(boundary.begin(), boundary.end(), quad[i]) - boundary.begin());
-    }
-  }
-  return cells;
-}
-
 }  // namespace
 
-bool TopologicalCleanup::joinAlong(const TrianglePath& path) {
-  cavity_.clear();
-  for (const HalfedgeId h : path) cavity_.add(mesh_.face(h));
-  cavity_.add(mesh_.face(mesh_.twin(path.back())));
-  const auto loop = cavity_.boundaryLoop(mesh_);
-  // A path that touches itself has other edges inside than those that are crossed.
-  if (!loop || loop->size() != 2 * path.size() + 2) return false;
-  std::vector<VertexId> vertices;
-  for (const HalfedgeId h : *loop) vertices.push_back(mesh_.origin(h));
-  const auto cells = cellsOf(quadsAlong(mesh_, path), vertices);
-  if (cavity_.doublesEdge(mesh_, *loop, cells)) return false;
+bool TopologicalCleanup::joinAlong(const TriangleWay& way, const PairLimits& limits) {
+  std::vector<FaceId> faces{mesh_.face(mesh_.twin(way.crossed.back()))};
+  for (const HalfedgeId h : way.crossed) faces.push_back(mesh_.face(h));
+  const std::vector<VertexId> vertices = cornersOf(mesh_, faces);
   const auto energy = [&] {
     int sum = 0;
     for (const VertexId v : vertices) sum += irregularity(mesh_.isBoundary(v), excess(v));
@@ -60,17 +41,20 @@ bool TopologicalCleanup::joinAlong(const TrianglePath& path) {
   const int energyBefore = energy() + 2 * kTriangleEnergy;
   const std::vector<VertexId> near = withNeighbours(mesh_, vertices);
   const std::vector<VertexId> moving = withNeighbours(mesh_, near);
-  const double least = std::min(worstAround(mesh_, near), kLeastShape);
+  const double least = std::min(worstAround(mesh_, near), limits.leastShape);
   const double mean = meanShapeAround(mesh_, near);
   const std::size_t mark = mesh_.mark();
-  mesh_.fill(*loop, cavity_.faces(), cells, {});
+  const std::size_t touchedBefore = touched_.size();
   const auto isGood = [&] {
-    if (energy() > energyBefore) return false;
+    if (!mergeAlong(mesh_, way)) return false;
+    if (!limits.atAnyPrice && energy() > energyBefore) return false;
     for (int sweep = 0; sweep < kSettleSweeps; ++sweep) relax(mesh_, moving, target_, options_.leastShape);
+    if (limits.atAnyPrice) return mendPoor(near, least);
     return worstAround(mesh_, near) >= least && meanShapeAround(mesh_, near) >= mean - kWorth;
   };
   if (!isGood()) {
     mesh_.rollback(mark);
+    touched_.resize(touchedBefore);
     return false;
   }
   touched_.insert(touched_.end(), moving.begin(), moving.end());
@@ -86,9 +70,9 @@ std::int64_t TopologicalCleanup::pathPass() {
   for (std::size_t i = 0; i < mesh_.faceCapacity(); ++i) {
     const FaceId f(i);
     if (mesh_.kind(f) == FaceKind::removed || mesh_.cornerCount(f) != 3) continue;
-    for (const TrianglePath& path : pathsToTriangles(mesh_, f, kMostPaths)) {
+    for (const TriangleWay& way : waysToTriangles(mesh_, f, kMostWays, kMostCost)) {
       // Shorter ones are bridged by the small operators, with any quads that fit.
-      if (path.size() <= kLongestBridge + 1 || !joinAlong(path)) continue;
+      if (way.crossed.size() <= kLongestBridge + 1 || !joinAlong(way, {kLeastShape, false})) continue;
       ++changes;
       break;
     }

@@ -10,7 +10,7 @@
 #include "qmcf/mesh/edit_mesh.hpp"
 #include "qmcf/mesh/side_pattern.hpp"
 #include "relaxation.hpp"
-#include "triangle_paths.hpp"
+#include "triangle_ways.hpp"
 
 namespace qmcf {
 
@@ -33,6 +33,8 @@ class TopologicalCleanup {
   /// Pairs triangles that are far from each other, for a mesh on which cavities have done what they can. Returns the
   /// number of pairs.
   std::int64_t pathPass();
+  /// Pairs triangles at any price that leaves elements a solver takes. Does nothing more once it is cancelled.
+  void pairAll(Progress& progress);
   /// The vertices around all changes since this was called last; some may have been removed since.
   std::vector<VertexId> takeTouched() { return std::exchange(touched_, {}); }
   [[nodiscard]] const CleanupStatistics& statistics() const { return statistics_; }
@@ -50,8 +52,16 @@ class TopologicalCleanup {
   /// follow.
   bool bridgeTriangles(FaceId from, std::size_t quads);
   std::int64_t bridgeAllTriangles();
-  /// Makes quads of the triangles at the ends of a path and of all between.
-  bool joinAlong(const TrianglePath& path);
+  /// What two triangles may cost that become quads with all between.
+  struct PairLimits {
+    double leastShape = 0.0;  ///< No element may be worse than this and than the worst before.
+    bool atAnyPrice = false;  ///< Whatever that does to the energy and to the mean shape.
+  };
+  /// Makes quads of the triangles at the ends of a way and of all between.
+  bool joinAlong(const TriangleWay& way, const PairLimits& limits);
+  bool fillAnyhow(double least);
+  bool fillWithBeside(std::vector<FaceId>& faces, std::size_t most, double least);
+  bool mendPoor(const std::vector<VertexId>& vertices, double least);
   bool collapseDiagonal(HalfedgeId corner);
   /// Fills cavity_ anew if that is better.
   bool refill();
@@ -83,9 +93,10 @@ class TopologicalCleanup {
   const RelaxationTarget& target_;
   const CleanupOptions& options_;
   CleanupStatistics statistics_;
-  TraceRecorder* trace_;      ///< nullptr: nobody wants the history.
-  std::vector<FaceId> path_;  ///< See bridgeTriangles().
-  Cavity cavity_;             ///< The region being looked at.
+  TraceRecorder* trace_;       ///< nullptr: nobody wants the history.
+  std::vector<FaceId> path_;   ///< See bridgeTriangles().
+  Cavity cavity_;              ///< The region being looked at.
+  std::size_t fillsLeft_ = 0;  ///< How many more fillings fillAnyhow() may try.
   /// Signatures of cavities that no pattern was found for. Their faces have other ids once something changes there.
   std::unordered_set<std::uint64_t> triedCavities_;
   /// Likewise of small ones, and of the elements around their vertices.

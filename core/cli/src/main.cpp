@@ -89,7 +89,7 @@ void addMesh(CLI::App& app, MeshCommand& command) {
       ->type_name("MODE")
       ->default_str("qmcf");
   app.add_flag("--all-quad", command.options.allQuad,
-               "Quadrilaterals only: a mesh of twice the size, each element cut up");
+               "Quadrilaterals only: triangles are paired; where that fails, larger elements are all cut up");
   app.add_option("--report", command.report, "Write a report")->type_name("FILE.json");
   app.add_option("--trace", command.trace, "Write the history of the front, step by step")->type_name("FILE.json");
   CLI::Option* const sizingOut =

@@ -218,6 +218,9 @@ std::string meshText(const MeshResult& result) {
   if (fallbacks > kMostLines) reasons += line("", "... and " + std::to_string(fallbacks - kMostLines) + " more");
   std::vector<std::string> parts;
   for (const auto& [method, count] : methods) parts.push_back(std::to_string(count) + " by " + method);
+  if (result.elementsCut) {
+    reasons += line("", "elements of twice the size, each cut up: triangles were left that could not be paired");
+  }
   if (result.fittedSizes) reasons += line("", "sizes vary to fit the cross field");
   if (result.sizing.bySizes > 0) {
     reasons += line("", "sizes asked for at " + counted(result.sizing.bySizes, "vertex", "vertices") + " of the part");

@@ -34,14 +34,14 @@ std::ptrdiff_t fallbacks(const Trial& trial) {
 }
 
 /// The number of elements, once the faces are joined.
-double elementCount(const Trial& trial, const MeshOptions& options) {
+double elementCount(const Trial& trial, const RunOptions& options) {
   std::int64_t quads = 0;
   std::int64_t triangles = 0;
   for (const MeshedFace& face : trial.faces) {
     quads += face.report.quads;
     triangles += face.report.triangles;
   }
-  return static_cast<double>(options.allQuad ? 4 * quads + 3 * triangles : quads + triangles);
+  return static_cast<double>(options.leftovers == Leftovers::cut ? 4 * quads + 3 * triangles : quads + triangles);
 }
 
 /// Meshes the faces with one choice of sizes after the other.
@@ -73,7 +73,7 @@ class SizeChoice {
   [[nodiscard]] double count(const Trial& trial) const { return elementCount(trial, part_.options); }
   [[nodiscard]] const SizeScale* scale() const { return chosen_.scale.empty() ? nullptr : &chosen_.scale; }
 
-  std::optional<Error> prepare(const MeshOptions& options, Settling settling) {
+  std::optional<Error> prepare(const RunOptions& options, Settling settling) {
     auto prepared = prepareFaces(part_.mesh, part_.brep, options, scale(), settling, limits_, progress_);
     if (!prepared) return prepared.error();
     prepared_ = std::move(prepared).value();
@@ -82,12 +82,12 @@ class SizeChoice {
   }
 
   /// The options for larger elements, if those that are asked for are many.
-  [[nodiscard]] std::optional<MeshOptions> coarser() const {
-    const std::int64_t enough = options_.allQuad ? 4 * kFieldElements : kFieldElements;
+  [[nodiscard]] std::optional<RunOptions> coarser() const {
+    const std::int64_t enough = options_.leftovers == Leftovers::cut ? 4 * kFieldElements : kFieldElements;
     double area = 0.0;
     for (const BrepFace& face : part_.brep.faces) area += face.area;
     const double least = std::sqrt(area / static_cast<double>(enough));
-    MeshOptions coarse = options_;
+    RunOptions coarse = options_;
     if (options_.quads && *options_.quads > enough) {
       coarse.quads = enough;
     } else if (options_.size && *options_.size < least) {
@@ -104,7 +104,7 @@ class SizeChoice {
     const auto onlyCancelled = [](const Error& error) {
       return error.code == ErrorCode::cancelled ? std::optional(error) : std::nullopt;
     };
-    const std::optional<MeshOptions> coarse = coarser();
+    const std::optional<RunOptions> coarse = coarser();
     if (const auto error = prepare(coarse ? *coarse : options_, Settling::spread)) return onlyCancelled(*error);
     auto scale = naturalScale(part_.brep, *prepared_, progress_);
     if (!scale) {
@@ -161,7 +161,7 @@ class SizeChoice {
   }
 
   const Part& part_;
-  MeshOptions options_;
+  RunOptions options_;
   Progress& progress_;
   std::optional<PreparedFaces> prepared_;  ///< For the next trial.
   std::vector<SizeLimit> limits_;          ///< Where elements have to be smaller whatever their number.

@@ -249,25 +249,45 @@ Result<CutFace> cutFace(const Part& part, const PreparedFaces& prepared, const T
   return result;
 }
 
-Result<MeshedFace> mendFace(const Part& part, const PreparedFaces& prepared, const TriangleBvh& whole,
-                            const MeshedFace& face, Progress& progress) {
+namespace {
+
+/// The face once more through the clean-up; as it is, if that would leave an element that no solver takes.
+Result<MeshedFace> cleanAgain(const Part& part, const PreparedFaces& prepared, const MeshedFace& face,
+                              const CleanupOptions& options, Progress& progress) {
   const auto f = static_cast<std::size_t>(face.report.face);
   MeshedFace result = face;
   std::optional<TraceRecorder> recorder;
   if (part.traceScale) recorder.emplace(result.trace, *part.traceScale);
-  const WholePart around{whole, part.brep.faces[f].triangles};
-  CleanupOptions options;
-  options.topology = false;
-  options.sweeps = 0;
-  options.part = &around;
-  auto mended = cleanUp(face.mesh, prepared.patches[f], part.faceTrees[f], options, progress,
-                        recorder ? &*recorder : nullptr, TraceKind::cleanup);
-  if (!mended) return mended.error();
-  if (!mended.value().degenerate.empty()) return face;
-  result.mesh = std::move(mended.value().mesh);
+  auto cleaned = cleanUp(face.mesh, prepared.patches[f], part.faceTrees[f], options, progress,
+                         recorder ? &*recorder : nullptr, TraceKind::cleanup);
+  if (!cleaned) return cleaned.error();
+  if (!cleaned.value().degenerate.empty()) return face;
+  result.mesh = std::move(cleaned.value().mesh);
   assert(ledgerCloses(result.mesh, part, face.report.face));
   count(result.report, result.mesh);
   return result;
+}
+
+}  // namespace
+
+Result<MeshedFace> pairFace(const Part& part, const PreparedFaces& prepared, const MeshedFace& face,
+                            Progress& progress) {
+  CleanupOptions options;
+  options.topology = false;
+  options.pairAll = true;
+  options.quadsOnly = true;
+  return cleanAgain(part, prepared, face, options, progress);
+}
+
+Result<MeshedFace> mendFace(const Part& part, const PreparedFaces& prepared, const TriangleBvh& whole, bool quadsOnly,
+                            const MeshedFace& face, Progress& progress) {
+  const WholePart around{whole, part.brep.faces[static_cast<std::size_t>(face.report.face)].triangles};
+  CleanupOptions options;
+  options.topology = false;
+  options.quadsOnly = quadsOnly;
+  options.sweeps = 0;
+  options.part = &around;
+  return cleanAgain(part, prepared, face, options, progress);
 }
 
 }  // namespace qmcf

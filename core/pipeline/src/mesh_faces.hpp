@@ -54,10 +54,15 @@ SharedFace shareCut(const CutFace& face, const PreparedFaces& prepared, const Sh
 Result<CutFace> cutFace(const Part& part, const PreparedFaces& prepared, const TriangleBvh& whole,
                         const MeshedFace& face, const SharedNodes& halved, Progress& progress);
 
+/// Makes quads of all triangles of a face, in pairs, with whatever lies between them; those stay that it can't be done
+/// for. The history goes on. Errors: cancelled.
+Result<MeshedFace> pairFace(const Part& part, const PreparedFaces& prepared, const MeshedFace& face,
+                            Progress& progress);
+
 /// Turns back elements of a face that the check against the part finds turned over, as far as moving vertices and
 /// changing connections can; the face as it is, if that would leave an element that no solver takes. whole: the tree
-/// over all triangles of the part. The history goes on. Errors: cancelled.
-Result<MeshedFace> mendFace(const Part& part, const PreparedFaces& prepared, const TriangleBvh& whole,
+/// over all triangles of the part; quadsOnly: no triangle may be made. The history goes on. Errors: cancelled.
+Result<MeshedFace> mendFace(const Part& part, const PreparedFaces& prepared, const TriangleBvh& whole, bool quadsOnly,
                             const MeshedFace& face, Progress& progress);
 
 }  // namespace qmcf

@@ -31,6 +31,10 @@ constexpr double kFewElements = 300.0;
 /// from these, then their faces, then all.
 constexpr std::array<double, 2> kHeldElements{3.0, 6.0};
 constexpr std::size_t kMaxHolds = kHeldElements.size() + 1;
+/// Where more than one of so many elements is a triangle that could not be paired, smaller ones won't help; nor where
+/// they did not so often.
+constexpr double kElementsPerUnpaired = 50.0;
+constexpr int kMostInVain = 2;
 /// How often faces are made of the part's own triangles before a mesh is given up.
 constexpr int kMaxGivenRounds = 5;
 constexpr std::size_t kMostGiven = 10000;  ///< Triangles of such a face, besides twice the elements.
@@ -72,7 +76,7 @@ void holdPlace(std::vector<Ball>& places, const Vec3& centre, double radius) {
 /// Meshes an inspected part; as long as the mesh is not valid and smaller elements may help, once more with these.
 class MeshRun {
  public:
-  MeshRun(const TriangleMesh& input, MeshResult inspected, const MeshOptions& options, Progress& progress,
+  MeshRun(const TriangleMesh& input, MeshResult inspected, const RunOptions& options, Progress& progress,
           SizingMesh* sizing)
       : result_(std::move(inspected)),
         inputPositions_(input.positions),
@@ -81,7 +85,7 @@ class MeshRun {
         options_(options),
         part_(mesh_, brep_, options_),
         // Where all elements will be cut up, those before are twice as long.
-        coarsening_(options.allQuad ? 2.0 : 1.0),
+        coarsening_(options.leftovers == Leftovers::cut ? 2.0 : 1.0),
         progress_(progress),
         sizing_(sizing) {}
 
@@ -94,6 +98,7 @@ class MeshRun {
     result_.size = sizes_.askedBase * (prepared.size.nominal / base) / coarsening_;
     std::size_t fewest = 0;
     double mostElements = 0.0;
+    int roundsInVain = 0;
     for (int round = 0;; ++round) {
       if (round > 0) {
         if (const auto error = meshChanged(part_, sizes_.trial, progress_)) return *error;
@@ -112,7 +117,9 @@ class MeshRun {
       // A face that lies on another is at fault in any number of elements.
       const bool isFutile =
           round > 0 && faults > fewest && faults == limits.size() && areMostlyAtFault(limits, attempted.value().mesh);
-      if (round == 0 || faults < fewest) {
+      const bool isBetter = round == 0 || faults < fewest;
+      roundsInVain = isBetter ? 0 : roundsInVain + 1;
+      if (isBetter) {
         fewest = faults;
         if (const auto error = keep(std::move(attempted).value())) return *error;
       }
@@ -124,14 +131,17 @@ class MeshRun {
       if (round == 0) mostElements = kMostGrowth * elements + kFewElements;
       // Half the size all over takes four times as many.
       if (!missing.empty()) mostElements = std::max(mostElements, 4.0 * elements + kFewElements);
-      const bool isLost = elements > mostElements || faults > 2 * fewest + kFewFaults || isFutile;
+      const bool isUnpaired = options_.leftovers == Leftovers::paired &&
+                              (roundsInVain == kMostInVain ||
+                               kElementsPerUnpaired * static_cast<double>(result_.quality.triangles) > elements);
+      const bool isLost = isUnpaired || elements > mostElements || faults > 2 * fewest + kFewFaults || isFutile;
       if ((limits.empty() && tiny.empty()) || isLost || round == kMaxRefinements) break;
       auto refined = tiny.empty() ? refineFaces(mesh_, brep_, options_, scale(), std::move(prepared), limits, progress_)
                                   : giveTiny(tiny, limits);
       if (!refined) return refined.error();
       prepared = std::move(refined).value();
     }
-    if (!result_.quality.valid) {
+    if (!result_.quality.valid && options_.leftovers != Leftovers::paired) {
       if (const auto error = giveTriangles()) return *error;
     }
     return std::move(result_);
@@ -247,8 +257,11 @@ class MeshRun {
   /// The faces' meshes as one. Where that is not valid, elements that are turned over are turned back in the faces'
   /// meshes; with quadrilaterals only that has been done already.
   Result<Attempt> attempt() {
+    if (options_.leftovers == Leftovers::paired) {
+      if (const auto error = pairTriangles()) return *error;
+    }
     auto first = joinHolding();
-    if (!first || options_.allQuad) return first;
+    if (!first || options_.leftovers == Leftovers::cut) return first;
     const std::vector<std::int32_t> faces = meshedFacesAtFault(first.value());
     if (faces.empty()) return first;
     const auto isChanged = mendFaces(faces);
@@ -259,6 +272,23 @@ class MeshRun {
     return takesSecond ? std::move(second) : std::move(first);
   }
 
+  /// Makes quadrilaterals of the triangles in the faces' meshes.
+  std::optional<Error> pairTriangles() {
+    Trial& trial = sizes_.trial;
+    std::vector<std::int32_t> faces;
+    for (const MeshedFace& face : trial.faces) {
+      if (face.report.triangles > 0) faces.push_back(face.report.face);
+    }
+    const auto pair = [&](std::int32_t face, Progress& progress) -> std::optional<Error> {
+      MeshedFace& meshed = trial.faces[static_cast<std::size_t>(face)];
+      auto paired = pairFace(part_, trial.prepared, meshed, progress);
+      if (!paired) return paired.error();
+      meshed = std::move(paired).value();
+      return std::nullopt;
+    };
+    return forEachFace(part_, trial, faces, progress_, pair);
+  }
+
   /// Turns back what is turned over in the meshes of these faces. Returns whether any mesh is another one now.
   Result<bool> mendFaces(const std::vector<std::int32_t>& faces) {
     Trial& trial = sizes_.trial;
@@ -267,7 +297,7 @@ class MeshRun {
     const auto mend = [&](std::int32_t face, Progress& progress) -> std::optional<Error> {
       const auto f = static_cast<std::size_t>(face);
       MeshedFace& meshed = trial.faces[f];
-      auto mended = mendFace(part_, trial.prepared, whole, meshed, progress);
+      auto mended = mendFace(part_, trial.prepared, whole, options_.leftovers == Leftovers::paired, meshed, progress);
       if (!mended) return mended.error();
       const FaceMesh& now = mended.value().mesh;
       changed[f] = now.elements != meshed.mesh.elements || now.positions != meshed.mesh.positions ? 1 : 0;
@@ -320,8 +350,9 @@ class MeshRun {
   Result<SeparateFaces> shareFaces() {
     const PreparedFaces& prepared = sizes_.trial.prepared;
     SeparateFaces separate;
-    separate.nodes = options_.allQuad ? halvedNodes(mesh_, brep_, prepared.divided) : sharedNodes(prepared.divided);
-    if (options_.allQuad) {
+    separate.nodes = options_.leftovers == Leftovers::cut ? halvedNodes(mesh_, brep_, prepared.divided)
+                                                          : sharedNodes(prepared.divided);
+    if (options_.leftovers == Leftovers::cut) {
       if (const auto error = cutMeshed(separate.nodes)) return *error;
     }
     for (const MeshedFace& face : sizes_.trial.faces) {
@@ -364,6 +395,10 @@ class MeshRun {
       limits.insert(limits.end(), face.tooCoarse.begin(), face.tooCoarse.end());
     const auto invalid = beforeCuts(halvedWhereInvalid(joined, quality));
     limits.insert(limits.end(), invalid.begin(), invalid.end());
+    if (options_.leftovers == Leftovers::paired) {
+      const auto unpaired = halvedAtTriangles(joined);
+      limits.insert(limits.end(), unpaired.begin(), unpaired.end());
+    }
     return limits;
   }
 
@@ -382,6 +417,7 @@ class MeshRun {
     result_.heldFaces = made.heldFaces;
     result_.heldPlaces = made.heldPlaces;
     result_.slidNodes = made.slidNodes;
+    result_.elementsCut = options_.leftovers == Leftovers::cut;
     result_.fieldSingularities = 0;
     for (const CrossField& field : prepared.fields) {
       result_.fieldSingularities += static_cast<std::int64_t>(field.singularities.size());
@@ -413,7 +449,7 @@ class MeshRun {
   const std::vector<Vec3>& inputPositions_;
   const TriangleMesh& mesh_;
   const Brep& brep_;
-  MeshOptions options_;
+  RunOptions options_;
   Part part_;
   double coarsening_;
   Progress& progress_;
@@ -423,13 +459,27 @@ class MeshRun {
   std::vector<Given> keptGiven_;
 };
 
+/// Whether a run has made what is asked for with quadrilaterals only. Cutting leaves out no face.
+bool isWholeWithQuads(const MeshResult& made) {
+  const auto isOmitted = [](const FaceReport& face) { return face.method == "omitted"; };
+  return made.quality.valid && made.quality.triangles == 0 &&
+         std::none_of(made.faces.begin(), made.faces.end(), isOmitted);
+}
+
 }  // namespace
 
 Result<MeshResult> meshInspected(const TriangleMesh& input, InspectResult inspected, const MeshOptions& options,
                                  Progress& progress, SizingMesh* sizing) {
   MeshResult result;
   result.input = std::move(inspected);
-  return MeshRun(input, std::move(result), options, progress, sizing).run();
+  RunOptions run{options, Leftovers::stay};
+  if (options.allQuad) {
+    run.leftovers = Leftovers::paired;
+    auto paired = MeshRun(input, result, run, progress, sizing).run();
+    if (!paired || isWholeWithQuads(paired.value())) return paired;
+    run.leftovers = Leftovers::cut;
+  }
+  return MeshRun(input, std::move(result), run, progress, sizing).run();
 }
 
 }  // namespace qmcf

@@ -109,8 +109,9 @@ Result<FieldResult> computeField(const TriangleMesh& input, const MeshOptions& o
   auto own = optionsFor(input, result.input, options);
   if (!own) return own.error();
   own.value().mode = Mode::qmcf;  // The field is wanted whatever front would ask it.
-  auto prepared = prepareFaces(result.input.repaired.mesh, result.input.brep, own.value(), nullptr,
-                               settlingOf(own.value()), {}, progress);
+  const RunOptions run{own.value(), Leftovers::stay};
+  auto prepared =
+      prepareFaces(result.input.repaired.mesh, result.input.brep, run, nullptr, settlingOf(run), {}, progress);
   if (!prepared) return prepared.error();
   result.size = prepared.value().size.base;
   result.patches = std::move(prepared.value().patches);

@@ -25,7 +25,7 @@ TraceScale traceScale(const TriangleMesh& mesh) {
 
 }  // namespace
 
-Part::Part(const TriangleMesh& partMesh, const Brep& partBrep, const MeshOptions& meshOptions)
+Part::Part(const TriangleMesh& partMesh, const Brep& partBrep, const RunOptions& meshOptions)
     : mesh(partMesh), brep(partBrep), options(meshOptions) {
   if (options.trace) traceScale = qmcf::traceScale(mesh);
   for (const BrepFace& face : brep.faces) {

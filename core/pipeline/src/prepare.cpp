@@ -24,7 +24,7 @@ constexpr int kMoreMissedRounds = 1;  ///< Where a preparation before has found 
 /// With ten divisions in a full turn the chords of an arc stay within a tenth of their length of it.
 constexpr std::int32_t kDivisionsPerTurn = 10;
 
-FieldOptions fieldOptions(const MeshOptions& options) {
+FieldOptions fieldOptions(const RunOptions& options) {
   FieldOptions field;
   field.boundary = options.alignBoundary;
   field.sharp = options.alignSharp;
@@ -34,7 +34,7 @@ FieldOptions fieldOptions(const MeshOptions& options) {
   return field;
 }
 
-SizingOptions sizingOptions(const MeshOptions& options, const SizeScale* scale) {
+SizingOptions sizingOptions(const RunOptions& options, const SizeScale* scale) {
   SizingOptions sizing;
   sizing.scale = scale;
   sizing.size = options.size;
@@ -44,7 +44,7 @@ SizingOptions sizingOptions(const MeshOptions& options, const SizeScale* scale) 
   sizing.curvature = options.curvature;
   sizing.gradation = options.gradation;
   sizing.divisionsPerTurn = kDivisionsPerTurn;
-  if (options.allQuad) {
+  if (options.leftovers == Leftovers::cut) {
     // Each element will be cut at the middles of its edges.
     if (sizing.size) *sizing.size *= 2.0;
     for (double& size : sizing.vertexSize) size *= 2.0;
@@ -77,7 +77,7 @@ const IdMap<VertexId, double>& sizesAtFirst(const PreparedFaces& prepared, std::
 /// The stages up to the cross fields, as often as the faces ask for smaller elements.
 class Preparation {
  public:
-  Preparation(const TriangleMesh& mesh, const Brep& brep, const MeshOptions& options, const SizeScale* scale,
+  Preparation(const TriangleMesh& mesh, const Brep& brep, const RunOptions& options, const SizeScale* scale,
               Settling settling, PreparedFaces before, Progress& progress)
       : mesh_(mesh),
         brep_(brep),
@@ -157,7 +157,8 @@ class Preparation {
   /// Divides the edges; faces whose edges keep their nodes keep their triangulations.
   void divide() {
     const DividedEdges before = std::move(result_.divided);
-    result_.divided = divideEdges(mesh_, brep_, result_.size, minimum_, asGiven_);
+    result_.divided =
+        divideEdges(mesh_, brep_, result_.size, minimum_, asGiven_, options_.leftovers == Leftovers::paired);
     const DividedEdges& now = result_.divided;
     if (before.edges.empty()) return;
     std::vector<std::int32_t> newNode(before.nodes.size(), kNone);
@@ -305,7 +306,7 @@ class Preparation {
 
   const TriangleMesh& mesh_;
   const Brep& brep_;
-  const MeshOptions& options_;
+  const RunOptions& options_;
   Settling settling_;
   PreparedFaces result_;
   Progress& progress_;
@@ -321,22 +322,22 @@ class Preparation {
 
 }  // namespace
 
-std::int32_t threadsOf(const MeshOptions& options) {
+std::int32_t threadsOf(const RunOptions& options) {
   return options.threads ? static_cast<std::int32_t>(*options.threads) : hardwareThreads();
 }
 
-Settling settlingOf(const MeshOptions& options) {
+Settling settlingOf(const RunOptions& options) {
   return options.fitSizes.value_or(false) ? Settling::turned : Settling::none;
 }
 
-Result<PreparedFaces> prepareFaces(const TriangleMesh& mesh, const Brep& brep, const MeshOptions& options,
+Result<PreparedFaces> prepareFaces(const TriangleMesh& mesh, const Brep& brep, const RunOptions& options,
                                    const SizeScale* scale, Settling settling, const std::vector<SizeLimit>& limits,
                                    Progress& progress) {
   return Preparation(mesh, brep, options, scale, settling, {}, progress).run(limits);
 }
 
 std::optional<Error> turnSizes(PreparedFaces& prepared, const std::vector<std::int32_t>& faces,
-                               const MeshOptions& options, Progress& progress) {
+                               const RunOptions& options, Progress& progress) {
   std::vector<double> costs;
   for (const std::int32_t face : faces) {
     costs.push_back(static_cast<double>(prepared.patches[static_cast<std::size_t>(face)].surface.triangleCount()));
@@ -347,7 +348,7 @@ std::optional<Error> turnSizes(PreparedFaces& prepared, const std::vector<std::i
   return parallelFor(costs, threadsOf(options), progress, turn);
 }
 
-Result<PreparedFaces> refineFaces(const TriangleMesh& mesh, const Brep& brep, const MeshOptions& options,
+Result<PreparedFaces> refineFaces(const TriangleMesh& mesh, const Brep& brep, const RunOptions& options,
                                   const SizeScale* scale, PreparedFaces prepared, const std::vector<SizeLimit>& limits,
                                   Progress& progress) {
   Preparation preparation(mesh, brep, options, scale, settlingOf(options), std::move(prepared), progress);
@@ -355,7 +356,7 @@ Result<PreparedFaces> refineFaces(const TriangleMesh& mesh, const Brep& brep, co
   return preparation.run(limits);
 }
 
-Result<PreparedFaces> prepareGiven(const TriangleMesh& mesh, const Brep& brep, const MeshOptions& options,
+Result<PreparedFaces> prepareGiven(const TriangleMesh& mesh, const Brep& brep, const RunOptions& options,
                                    const SizeScale* scale, const PreparedSizes& before, const std::vector<Given>& given,
                                    Progress& progress) {
   Preparation preparation(mesh, brep, options, scale, settlingOf(options), {}, progress);
@@ -378,7 +379,7 @@ void keepUnchanged(const PreparedFaces& before, PreparedFaces& now) {
   });
 }
 
-Result<SizeField> sizeField(const TriangleMesh& mesh, const Brep& brep, const MeshOptions& options,
+Result<SizeField> sizeField(const TriangleMesh& mesh, const Brep& brep, const RunOptions& options,
                             const SizeScale* scale, const PreparedSizes& sizes, Progress& progress) {
   SizingOptions sizing = sizingOptions(options, scale);
   useSizes(sizing, sizes);

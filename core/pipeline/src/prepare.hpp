@@ -5,14 +5,14 @@
 #include <vector>
 
 #include "qmcf/background/background.hpp"
-#include "qmcf/pipeline/mesh_surface.hpp"
 #include "qmcf/sizing/divide.hpp"
 #include "qmcf/sizing/size_field.hpp"
+#include "run_options.hpp"
 
 namespace qmcf {
 
 /// The number of threads that the options ask for.
-std::int32_t threadsOf(const MeshOptions& options);
+std::int32_t threadsOf(const RunOptions& options);
 
 /// What a face is made of: elements of the wanted size, or the part's own triangles, which fit whatever else fails.
 enum class Given : std::uint8_t { nothing, pairs, triangles };
@@ -22,7 +22,7 @@ enum class Given : std::uint8_t { nothing, pairs, triangles };
 enum class Settling : std::uint8_t { none, spread, turned };
 
 /// What the options ask for.
-Settling settlingOf(const MeshOptions& options);
+Settling settlingOf(const RunOptions& options);
 
 /// Everything that the faces need before they can be meshed one by one.
 struct PreparedFaces {
@@ -53,23 +53,23 @@ struct PreparedSizes {
 /// size is multiplied by from place to place, here and below; nullptr: nothing. A size given in the options is the mean
 /// one then. limits: places known to need smaller elements, from a preparation with other sizes. Errors: those of the
 /// stages.
-Result<PreparedFaces> prepareFaces(const TriangleMesh& mesh, const Brep& brep, const MeshOptions& options,
+Result<PreparedFaces> prepareFaces(const TriangleMesh& mesh, const Brep& brep, const RunOptions& options,
                                    const SizeScale* scale, Settling settling, const std::vector<SizeLimit>& limits,
                                    Progress& progress);
 
 /// The inner sizes of these faces, which are spread, turn, too. faces: ascending. Errors: those of turnedSizes().
 std::optional<Error> turnSizes(PreparedFaces& prepared, const std::vector<std::int32_t>& faces,
-                               const MeshOptions& options, Progress& progress);
+                               const RunOptions& options, Progress& progress);
 
 /// The same with smaller elements at `limits` and the base size as it was. Faces out of their reach keep all they have,
 /// apart from the numbers of the shared nodes.
-Result<PreparedFaces> refineFaces(const TriangleMesh& mesh, const Brep& brep, const MeshOptions& options,
+Result<PreparedFaces> refineFaces(const TriangleMesh& mesh, const Brep& brep, const RunOptions& options,
                                   const SizeScale* scale, PreparedFaces prepared, const std::vector<SizeLimit>& limits,
                                   Progress& progress);
 
 /// The same, from the beginning, with the sizes and divisions that `before` had, and some faces made of the part's own
 /// triangles; their edges are divided at the part's own points.
-Result<PreparedFaces> prepareGiven(const TriangleMesh& mesh, const Brep& brep, const MeshOptions& options,
+Result<PreparedFaces> prepareGiven(const TriangleMesh& mesh, const Brep& brep, const RunOptions& options,
                                    const SizeScale* scale, const PreparedSizes& before, const std::vector<Given>& given,
                                    Progress& progress);
 
@@ -78,7 +78,7 @@ Result<PreparedFaces> prepareGiven(const TriangleMesh& mesh, const Brep& brep, c
 void keepUnchanged(const PreparedFaces& before, PreparedFaces& now);
 
 /// The size field with these sizes. Errors: cancelled.
-Result<SizeField> sizeField(const TriangleMesh& mesh, const Brep& brep, const MeshOptions& options,
+Result<SizeField> sizeField(const TriangleMesh& mesh, const Brep& brep, const RunOptions& options,
                             const SizeScale* scale, const PreparedSizes& sizes, Progress& progress);
 
 }  // namespace qmcf

@@ -195,6 +195,7 @@ std::string toJson(const MeshResult& result) {
                {"heldFaces", result.heldFaces},
                {"heldPlaces", result.heldPlaces},
                {"slidNodes", result.slidNodes},
+               {"elementsCut", result.elementsCut},
                {"fittedSizes", result.fittedSizes},
                {"sizing", toValue(result.sizing)},
                {"sizeConformity", toValue(result.sizeConformity)}});

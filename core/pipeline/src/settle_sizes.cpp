@@ -28,7 +28,7 @@ void lowerToLimits(const Patch& patch, const SizeField& field, IdMap<VertexId, d
 }
 
 /// Gives the patch these sizes, as far as they are allowed.
-void take(PreparedFaces& prepared, std::size_t face, IdMap<VertexId, double> sizes, const MeshOptions& options) {
+void take(PreparedFaces& prepared, std::size_t face, IdMap<VertexId, double> sizes, const RunOptions& options) {
   Patch& patch = prepared.patches[face];
   lowerToLimits(patch, prepared.size, sizes);
   const bool asksInside = options.curvature || !options.sizes.empty();
@@ -60,7 +60,7 @@ IdMap<VertexId, double> dividedSizes(const Patch& patch) {
 
 }  // namespace
 
-std::optional<Error> spreadInside(PreparedFaces& prepared, std::size_t face, const MeshOptions& options,
+std::optional<Error> spreadInside(PreparedFaces& prepared, std::size_t face, const RunOptions& options,
                                   Progress& progress) {
   prepared.wantedElements[face] = expectedElements(prepared.patches[face]);
   prepared.settled[face] = 0;
@@ -72,7 +72,7 @@ std::optional<Error> spreadInside(PreparedFaces& prepared, std::size_t face, con
   return std::nullopt;
 }
 
-std::optional<Error> turnInside(PreparedFaces& prepared, std::size_t face, const MeshOptions& options,
+std::optional<Error> turnInside(PreparedFaces& prepared, std::size_t face, const RunOptions& options,
                                 Progress& progress) {
   if (prepared.given[face] != Given::nothing) return std::nullopt;
   auto sizes = turnedSizes(prepared.patches[face], prepared.fields[face], progress);
@@ -82,7 +82,7 @@ std::optional<Error> turnInside(PreparedFaces& prepared, std::size_t face, const
 }
 
 std::optional<Error> followMesh(PreparedFaces& prepared, std::size_t face, const FaceMesh& mesh,
-                                const MeshOptions& options, Progress& progress) {
+                                const RunOptions& options, Progress& progress) {
   auto sizes = sizesOfMesh(prepared.patches[face], mesh, progress);
   if (!sizes) return sizes.error();
   take(prepared, face, std::move(sizes).value(), options);

@@ -223,6 +223,15 @@ std::int64_t countFaults(const QualityReport& quality) {
   return count;
 }
 
+std::vector<SizeLimit> halvedAtTriangles(const QuadMesh& mesh) {
+  std::vector<SizeLimit> limits;
+  for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
+    if (cornerCount(mesh.elements[e]) == 3)
+      limits.push_back(halved(mesh.positions, mesh.elements[e], mesh.elementFace[e]));
+  }
+  return limits;
+}
+
 std::vector<SizeLimit> notBelow(const std::vector<SizeLimit>& limits, double lowest) {
   std::vector<SizeLimit> result;
   for (const SizeLimit& limit : limits) {

@@ -18,6 +18,9 @@ std::vector<SizeLimit> halvedAt(const FaceMesh& mesh, const std::vector<std::int
 /// part, two walls meet in the same elements or an element lies against the surface.
 std::vector<SizeLimit> halvedWhereInvalid(const QuadMesh& mesh, const QualityReport& quality);
 
+/// Half the present length at every triangle.
+std::vector<SizeLimit> halvedAtTriangles(const QuadMesh& mesh);
+
 /// The limits that ask for at least `lowest`.
 std::vector<SizeLimit> notBelow(const std::vector<SizeLimit>& limits, double lowest);
 

@@ -26,7 +26,7 @@ struct Trial {
 
 /// The meshes of faces that were prepared with `options`: the part's, or these with another number of elements. Where
 /// that is worth it, sizes settle with the meshes (settlesWithMeshes()). Errors: cancelled.
-Result<Trial> makeTrial(const Part& part, const MeshOptions& options, PreparedFaces prepared, Progress& progress);
+Result<Trial> makeTrial(const Part& part, const RunOptions& options, PreparedFaces prepared, Progress& progress);
 
 /// Meshes the faces that the last preparation made anew, once each: where a mesh was not valid, better sizes are not
 /// what is missing. Errors: cancelled.

@@ -113,14 +113,33 @@ Step stepOf(const EdgePlan& plan) {
   return plan.count > plan.least && down < up ? Step{-1, down} : Step{1, up};
 }
 
-/// Makes the number of divisions around each face even wherever that is possible, and odd where that suits the face
-/// better.
-void makeEven(std::vector<EdgePlan>& plans, const Brep& brep) {
-  const auto uses = oddUses(brep);
+std::vector<double> wantedOf(const std::vector<EdgePlan>& plans) {
   std::vector<double> wanted;
   for (const EdgePlan& plan : plans) wanted.push_back(plan.wanted());
+  return wanted;
+}
+
+/// Three quadrilaterals around the middle of a triangle smaller than an element need two divisions on each side.
+void halveTinyTriangles(std::vector<EdgePlan>& plans, const Brep& brep) {
+  const std::vector<double> wanted = wantedOf(plans);
+  for (const BrepFace& face : brep.faces) {
+    if (!isTinyTriangle(face, wanted)) continue;
+    for (const Coedge& coedge : face.loops[0].coedges) {
+      EdgePlan& plan = plans[static_cast<std::size_t>(coedge.edge)];
+      if (plan.asGiven) continue;
+      plan.least = std::max(plan.least, 2);
+      plan.count = std::max(plan.count, 2);
+    }
+  }
+}
+
+/// Makes the number of divisions around each face even wherever that is possible, and odd where that suits the face
+/// better, unless there shall be quadrilaterals only.
+void makeEven(std::vector<EdgePlan>& plans, const Brep& brep, bool quadsOnly) {
+  const auto uses = oddUses(brep);
+  const std::vector<double> wanted = wantedOf(plans);
   std::vector<bool> odd;
-  for (const BrepFace& face : brep.faces) odd.push_back(suitsOdd(brep, face, wanted));
+  for (const BrepFace& face : brep.faces) odd.push_back(!quadsOnly && suitsOdd(brep, face, wanted));
   std::vector<std::size_t> changing;
   std::vector<ParityChange> changes;
   for (std::size_t e = 0; e < plans.size(); ++e) {
@@ -201,18 +220,20 @@ void placeNodes(DividedEdges& divided, const EdgePlan& plan, const BrepEdge& edg
 }  // namespace
 
 DividedEdges divideEdges(const TriangleMesh& mesh, const Brep& brep, const SizeField& size,
-                         const std::vector<std::int32_t>& minimumDivisions, const std::vector<std::uint8_t>& asGiven) {
+                         const std::vector<std::int32_t>& minimumDivisions, const std::vector<std::uint8_t>& asGiven,
+                         bool quadsOnly) {
   std::vector<EdgePlan> plans;
   for (std::size_t e = 0; e < brep.edges.size(); ++e) {
     const std::int32_t minimum = e < minimumDivisions.size() ? minimumDivisions[e] : 1;
     plans.push_back(planEdge(mesh, brep.edges[e], size, e, minimum));
     if (e < asGiven.size() && asGiven[e] != 0) keepPoints(plans.back());
   }
+  if (quadsOnly) halveTinyTriangles(plans, brep);
   separateParallelEdges(plans, brep);
   levelSlits(mesh, brep, plans);
 
   DividedEdges divided;
-  makeEven(plans, brep);
+  makeEven(plans, brep, quadsOnly);
   divided.oddFaces = oddFacesOf(plans, brep);
   balance(plans, mesh, brep);
   fillSmallLoops(plans, brep);

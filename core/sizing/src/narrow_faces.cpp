@@ -47,15 +47,6 @@ BrepFace withCorners(BrepFace face, std::int32_t corners) {
   return face;
 }
 
-/// Three corners, and each side shorter than an element.
-bool isTinyTriangle(const BrepFace& face, const std::vector<double>& wanted) {
-  if (face.loops.size() != 1 || face.loops[0].coedges.size() != 3) return false;
-  const auto& coedges = face.loops[0].coedges;
-  return std::all_of(coedges.begin(), coedges.end(), [&](const Coedge& coedge) {
-    return coedge.cornerQuads == 1 && wanted[static_cast<std::size_t>(coedge.edge)] < 1.0;
-  });
-}
-
 }  // namespace
 
 std::int32_t turnOf(const BrepLoop& loop) {
@@ -106,6 +97,14 @@ std::optional<RowSides> fourSides(const Brep& brep, const BrepFace& face) {
 }
 
 BrepFace withEnds(BrepFace face) { return withCorners(std::move(face), 4); }
+
+bool isTinyTriangle(const BrepFace& face, const std::vector<double>& wanted) {
+  if (face.loops.size() != 1 || face.loops[0].coedges.size() != 3) return false;
+  const auto& coedges = face.loops[0].coedges;
+  return std::all_of(coedges.begin(), coedges.end(), [&](const Coedge& coedge) {
+    return coedge.cornerQuads == 1 && wanted[static_cast<std::size_t>(coedge.edge)] < 1.0;
+  });
+}
 
 bool suitsOdd(const Brep& brep, const BrepFace& face, const std::vector<double>& wanted) {
   if (isTinyTriangle(face, wanted)) return true;

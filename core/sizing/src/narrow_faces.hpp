@@ -42,6 +42,9 @@ std::optional<RowSides> fourSides(const Brep& brep, const BrepFace& face);
 /// ones have an element each, too, or the row would end in triangles.
 BrepFace withEnds(BrepFace face);
 
+/// Whether a face has three corners, and each side is shorter than an element.
+bool isTinyTriangle(const BrepFace& face, const std::vector<double>& wanted);
+
 /// Whether an odd number of divisions suits a face: a single row between a tip and an end, which has one triangle, or a
 /// triangle smaller than an element. With an even number they have two.
 bool suitsOdd(const Brep& brep, const BrepFace& face, const std::vector<double>& wanted);

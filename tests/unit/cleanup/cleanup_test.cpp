@@ -143,21 +143,13 @@ TEST(CleanUp, BridgesTrianglesWithQuadsBetween) {
 TEST(CleanUp, PairsTrianglesFarFromEachOther) {
   // No region around one of them reaches the other before it is too large for a pattern.
   const Patch patch = testing::makeSquare(30);
-  for (const int between : {10, 16, 25}) {
+  for (const int between : {10, 16, 26}) {
     const CleanupResult result = clean(gridWithRowAskew(patch, 30, between), patch);
     EXPECT_EQ(result.mesh.elements.size(), 900U) << between;
     EXPECT_EQ(result.statistics.pairs, 1) << between;
     for (const Element& element : result.mesh.elements) EXPECT_EQ(cornerCount(element), 4U) << between;
     EXPECT_GT(result.worstShape, 0.99) << between;
   }
-}
-
-TEST(CleanUp, LeavesTrianglesWithMoreThanTwentyFiveQuadsBetween) {
-  const Patch patch = testing::makeSquare(30);
-  const CleanupResult result = clean(gridWithRowAskew(patch, 30, 26), patch);
-  EXPECT_EQ(result.statistics.pairs, 0);
-  const auto isTriangle = [](const Element& element) { return cornerCount(element) == 3U; };
-  EXPECT_EQ(std::count_if(result.mesh.elements.begin(), result.mesh.elements.end(), isTriangle), 2);
 }
 
 TEST(CleanUp, TwoOppositeDipolesGiveWayToAGrid) {

@@ -144,6 +144,21 @@ TEST(MeshSurface, MakesQuadrilateralsOnlyWhenAsked) {
   }
 }
 
+TEST(MeshSurface, PairsTheLastTrianglesWhereThereShallBeNone) {
+  // Tips of 12 degrees, where a row of elements ends in triangles.
+  const TriangleMesh wedge = shapes::prism({{0, 0}, {8, 0}, {9.4, 1.5}, {8, 1.7}}, {6.0, 0.8});
+  for (const std::int64_t quads : {60, 150, 400}) {
+    const MeshResult any = mesh(wedge, quads);
+    const MeshResult result = allQuad(wedge, quads);
+    expectGood(result);
+    EXPECT_GT(any.quality.triangles, 0) << quads;
+    EXPECT_EQ(result.quality.triangles, 0) << quads;
+    EXPECT_FALSE(result.elementsCut) << quads;
+    EXPECT_LT(result.quality.quads, 1.3 * static_cast<double>(any.quality.quads + any.quality.triangles)) << quads;
+    EXPECT_GT(result.quality.scaledJacobian.worst, 0.1) << quads;
+  }
+}
+
 /// A square plate with a smooth spike thinner than an element.
 TriangleMesh spikedPlate() {
   return shapes::moved(shapes::square(200), [](const Vec3& p) {
@@ -335,6 +350,7 @@ TEST(MeshSurface, MeshesBothOfTwoLayersWithQuadrilateralsOnly) {
     expectGood(result);
     EXPECT_EQ(result.quality.triangles, 0);
     for (const FaceReport& face : result.faces) EXPECT_TRUE(face.reason.empty()) << face.reason;
+    EXPECT_TRUE(result.elementsCut);  // Layers that share elements can't be told apart, cut ones can.
   }
 }
 

@@ -41,6 +41,11 @@ export function optionsSection(store: Store, session: Session): HTMLElement {
   const id = uniqueId();
   const mode = el('select', { id }, ...modes.map(([value, label]) => el('option', { value }, label)));
   mode.addEventListener('change', () => session.changeSettings({ mode: mode.value as Mode }));
+  const allQuad = toggle(
+    'Quadrilaterals only',
+    (on) => session.changeSettings({ allQuad: on }),
+    'The last triangles become quads, too, together with what lies between them.',
+  );
   const record = toggle(
     'Record the front',
     (on) => store.update({ record: on }),
@@ -51,6 +56,7 @@ export function optionsSection(store: Store, session: Session): HTMLElement {
     angle.set(String(settings.featureAngle));
     gradation.set(String(settings.gradation));
     mode.value = settings.mode;
+    allQuad.input.checked = settings.allQuad;
     for (const [name, { input }] of toggles) {
       input.checked = settings[name];
     }
@@ -61,6 +67,7 @@ export function optionsSection(store: Store, session: Session): HTMLElement {
     el('summary', {}, 'Features and directions'),
     el('div', { class: 'pair' }, angle.element, gradation.element),
     el('div', { class: 'field' }, el('label', { for: id }, 'Advancing front'), mode),
+    allQuad.element,
     record.element,
     el(
       'fieldset',

@@ -23,6 +23,7 @@ struct CleanupOptions {
   bool quadsOnly = false;    ///< Make no triangle where there was none.
   double sizeScale = 1.0;    ///< Element length in units of the patch's sizes, > 0.
   bool topology = true;      ///< Change connectivity where that makes vertices more regular.
+  bool pairAll = false;      ///< Make quads of all triangles, in pairs, as long as solvers take them.
   std::int32_t rounds = 6;   ///< Rounds of topological operators and relaxation, 0 to 50.
   std::int32_t sweeps = 25;  ///< Relaxation sweeps over all vertices at the end, 0 to 200.
   double leastShape = 0.2;   ///< No operator may leave an element with a smaller scaled Jacobian, in (0, 1).

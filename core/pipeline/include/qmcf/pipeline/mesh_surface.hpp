@@ -47,11 +47,13 @@ struct MeshOptions {
   std::optional<bool> fitSizes;
   double featureAngle = 30.0;  ///< Dihedral angle in degrees, (0, 180), from which an edge is sharp.
   Mode mode = Mode::qmcf;      ///< The advancing front.
-  bool allQuad = false;        ///< No triangles: a mesh of twice the size with every element cut at its edges' middles.
-  bool repair = true;          ///< false: defects of the input are reported and left as they are.
-  double gradation = 0.25;     ///< Largest slope of the size field before it settles inside faces, (0, 1].
-  bool alignBoundary = true;   ///< Field constraint: boundary edges.
-  bool alignSharp = true;      ///< Field constraint: sharp edges.
+  /// No triangles: those that are left become quadrilaterals in pairs, with all that lies between two of them. Where
+  /// that is not possible, every element of a mesh of twice the size is cut at the middles of its edges.
+  bool allQuad = false;
+  bool repair = true;                ///< false: defects of the input are reported and left as they are.
+  double gradation = 0.25;           ///< Largest slope of the size field before it settles inside faces, (0, 1].
+  bool alignBoundary = true;         ///< Field constraint: boundary edges.
+  bool alignSharp = true;            ///< Field constraint: sharp edges.
   bool alignNonManifold = true;      ///< Field constraint: non-manifold edges.
   bool alignCurvature = true;        ///< Field constraint: principal curvature.
   std::vector<FieldStroke> strokes;  ///< Field constraint: lines to follow (FieldOptions::strokes); finite, not points.
@@ -116,6 +118,7 @@ struct MeshResult {
   std::vector<FaceReport> faces;
   std::int64_t fieldSingularities = 0;  ///< 0 in a mode without a cross field.
   SizeConformity sizeConformity;
+  bool elementsCut = false;        ///< Every element was cut, as MeshOptions::allQuad says.
   bool fittedSizes = false;        ///< Sizes vary to fit the field (MeshOptions::fitSizes), by 5 % at least.
   SizeSources sizing;              ///< How many vertices of the repaired input have another size than `size`, and why.
   std::vector<double> vertexSize;  ///< Per vertex of the input: the target edge length there.

@@ -30,9 +30,9 @@ struct DividedEdges {
 /// parts of the integral; then solves parity over all faces, so that each has an even number of boundary edges wherever
 /// that is possible, and makes opposite sides of faces match where the sizes allow it (E4 and E5 of docs/algorithm.md).
 /// minimumDivisions: per edge, a lower bound, or empty. asGiven: per edge, 1 where the nodes shall be the edge's own
-/// points and no others, or empty.
+/// points and no others, or empty. quadsOnly: also faces that do better with a triangle get an even number.
 DividedEdges divideEdges(const TriangleMesh& mesh, const Brep& brep, const SizeField& size,
                          const std::vector<std::int32_t>& minimumDivisions = {},
-                         const std::vector<std::uint8_t>& asGiven = {});
+                         const std::vector<std::uint8_t>& asGiven = {}, bool quadsOnly = false);
 
 }  // namespace qmcf
