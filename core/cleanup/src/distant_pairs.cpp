@@ -12,8 +12,8 @@ namespace qmcf {
 namespace {
 
 constexpr std::size_t kMostWays = 4;
-/// About 25 quadrilaterals in a row.
-constexpr double kMostCost = 3.0;
+/// Some 57 squares in a row.
+constexpr double kMostCost = 6.0;
 constexpr int kSettleSweeps = 12;
 /// What a pair may leave, unless there were worse elements before, and how much of the mean shape around the way it is
 /// worth.
