@@ -19,6 +19,10 @@ namespace {
 /// come out nearer by themselves.
 constexpr int kMostTrials = 2;
 constexpr std::int64_t kManyElements = 10'000;
+/// Share of the number that it is off by after all these from which on one more is tried, and up to which: small
+/// features need more elements than are wanted.
+constexpr double kFarOff = 0.05;
+constexpr double kOutOfReach = 0.12;
 /// The field hardly changes with the size: so many elements tell enough of it.
 constexpr std::int64_t kFieldElements = 3000;
 /// How often, from which share on, and up to which a larger base makes up for what settled sizes add to the number of
@@ -145,7 +149,11 @@ class SizeChoice {
     const double share = static_cast<double>(*options_.quads) / static_cast<double>(wanted);
     CountTrial tried{wanted, count(chosen_.trial)};
     std::int64_t asked = correctedCount(tried, wanted);
-    for (; trials > 0 && asked != tried.asked; --trials) {
+    const auto isWorthAnother = [&] {
+      const double off = miss(tried.made) / static_cast<double>(wanted);
+      return off > kFarOff && off < kOutOfReach;
+    };
+    for (; asked != tried.asked && (trials > 0 || (trials == 0 && isWorthAnother())); --trials) {
       options_.quads = roundedCount(static_cast<double>(asked) * share);
       if (const auto error = prepare(options_, settlingOf(options_))) return error;
       auto corrected = makeTrial(part_, options_, *std::exchange(prepared_, std::nullopt), progress_);
