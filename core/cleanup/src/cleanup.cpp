@@ -164,7 +164,7 @@ Result<CleanupResult> cleanUp(const FaceMesh& mesh, const Patch& patch, const Tr
     if (settled && cavityPasses < kCavityPasses) {
       ++cavityPasses;
       changes += topology.cavityPass();
-      changes += topology.pathPass();
+      changes += topology.distantPass();
     }
     relaxation.wake(topology.takeTouched());
     if (changes == 0) break;

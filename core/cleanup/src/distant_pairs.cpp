@@ -63,7 +63,7 @@ bool TopologicalCleanup::joinAlong(const TriangleWay& way, const PairLimits& lim
   return true;
 }
 
-std::int64_t TopologicalCleanup::pathPass() {
+std::int64_t TopologicalCleanup::distantPass() {
   if (countElements(mesh_).triangles > kFewTriangles) return 0;
   std::int64_t changes = 0;
   note(TraceKind::pair);

@@ -32,7 +32,7 @@ class TopologicalCleanup {
   std::int64_t cavityPass();
   /// Pairs triangles that are far from each other, for a mesh on which cavities have done what they can. Returns the
   /// number of pairs.
-  std::int64_t pathPass();
+  std::int64_t distantPass();
   /// Pairs triangles at any price that leaves elements a solver takes. Does nothing more once it is cancelled.
   void pairAll(Progress& progress);
   /// The vertices around all changes since this was called last; some may have been removed since.

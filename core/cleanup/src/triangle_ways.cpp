@@ -22,7 +22,7 @@ constexpr double kStepCost = 0.02;
 /// What a quadrilateral and the triangle beside it become.
 struct Hop {
   std::array<VertexId, 4> quad{};
-  VertexId apex;  ///< Of the triangle that is left, over the edge by which the path goes on.
+  VertexId apex;  ///< Of the triangle that is left, over the edge by which the way goes on.
 };
 
 /// Of the triangle with an apex over `crossed` and the quadrilateral behind that, with the diagonal from the origin or
@@ -149,6 +149,7 @@ std::vector<TriangleWay> waysToTriangles(const EditMesh& mesh, FaceId from, std:
 bool mergeAlong(EditMesh& mesh, const TriangleWay& way) {
   for (std::size_t i = 0; i < way.crossed.size(); ++i) {
     const HalfedgeId crossed = way.crossed[i];
+    if (way.quads[i][0] == way.quads[i][2]) return false;
     if (i + 1 < way.crossed.size()) {
       const HalfedgeId entry = mesh.twin(crossed);
       // The half beside the edge that is crossed has the far corner of the new quadrilateral.

@@ -21,7 +21,8 @@ struct TriangleWay {
 /// the square of what its shape lacks and 0.02, and much more if it is poor; none passes through a face twice.
 std::vector<TriangleWay> waysToTriangles(const EditMesh& mesh, FaceId from, std::size_t most, double mostCost);
 
-/// Makes the quadrilaterals. Returns false, with a part of them made, if an edge is there already that one would have.
+/// Makes the quadrilaterals. Returns false, with a part of them made, if one would have a vertex twice or an edge that
+/// is there already.
 bool mergeAlong(EditMesh& mesh, const TriangleWay& way);
 
 }  // namespace qmcf
