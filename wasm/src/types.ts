@@ -419,7 +419,7 @@ export interface MeshReport {
   readonly heldPlaces: number;
   /** Nodes that the others moved along their edges by more than a tenth of the element size. */
   readonly slidNodes: number;
-  /** Whether every element was cut, since triangles could not all be paired: {@link MeshOptions.allQuad}. */
+  /** Whether every element was cut, since pairing triangles gave no whole, valid mesh: {@link MeshOptions.allQuad}. */
   readonly elementsCut: boolean;
   /** Whether sizes vary to fit the field, by 5 % at least: {@link MeshOptions.fitSizes}. */
   readonly fittedSizes: boolean;

@@ -62,16 +62,22 @@ int TopologicalCleanup::excess(VertexId v) const {
   return elements - (v.index() < wanted_.size() ? wanted_[v.index()] : kRegular);
 }
 
-bool TopologicalCleanup::settle(const std::vector<VertexId>& vertices, double least, std::size_t mark) {
+bool TopologicalCleanup::becomesGood(const std::vector<VertexId>& vertices, double least, int sweeps) {
   const std::vector<VertexId> moving = withNeighbours(mesh_, vertices);
-  for (int sweep = 0; sweep < kSettleSweeps; ++sweep) relax(mesh_, moving, target_, options_.leastShape);
-  if (worstAround(mesh_, vertices) >= least) {
-    touched_.insert(touched_.end(), moving.begin(), moving.end());
+  for (int sweep = 0; sweep < sweeps; ++sweep) relax(mesh_, moving, target_, options_.leastShape);
+  if (!(worstAround(mesh_, vertices) >= least)) return false;
+  touched_.insert(touched_.end(), moving.begin(), moving.end());
+  return true;
+}
+
+bool TopologicalCleanup::settle(const std::vector<VertexId>& vertices, double least, std::size_t mark) {
+  const bool isGood = becomesGood(vertices, least, kSettleSweeps);
+  if (isGood) {
     mesh_.commit();
-    return true;
+  } else {
+    mesh_.rollback(mark);
   }
-  mesh_.rollback(mark);
-  return false;
+  return isGood;
 }
 
 bool TopologicalCleanup::removeDoublet(VertexId v) {

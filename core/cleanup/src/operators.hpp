@@ -85,7 +85,9 @@ class TopologicalCleanup {
   bool settleFilled(const std::vector<FaceId>& filled, const std::vector<VertexId>& moving,
                     const RelaxationTarget& rough, double allowed);
   bool fillWith(const SidePattern& pattern, const std::vector<HalfedgeId>& loop, const Measures& before, int drop);
-  /// Relaxes around the vertices and keeps the change since mark if no element there has a shape below `least`.
+  /// Relaxes around the vertices. Returns whether no element there has a shape below `least` then.
+  bool becomesGood(const std::vector<VertexId>& vertices, double least, int sweeps);
+  /// The same, and keeps the change since mark if no element there has a shape below `least`.
   bool settle(const std::vector<VertexId>& vertices, double least, std::size_t mark);
 
   EditMesh& mesh_;

@@ -115,12 +115,7 @@ bool TopologicalCleanup::fillAnyhow(double least) {
     for (const Vec3& p : ways[i].inner) inner.push_back(projectVertex(target_, mesh_.vertex(vertices[0]), p));
     const std::size_t mark = mesh_.mark();
     mesh_.fill(*loop, cavity_.faces(), ways[i].cells, inner);
-    const std::vector<VertexId> moving = withNeighbours(mesh_, vertices);
-    for (int sweep = 0; sweep < kSettleSweeps; ++sweep) relax(mesh_, moving, target_, options_.leastShape);
-    if (worstAround(mesh_, vertices) >= least) {
-      touched_.insert(touched_.end(), moving.begin(), moving.end());
-      return true;
-    }
+    if (becomesGood(vertices, least, kSettleSweeps)) return true;
     mesh_.rollback(mark);
   }
   return false;
@@ -177,6 +172,7 @@ void TopologicalCleanup::pairAll(Progress& progress) {
         const double lowest = std::min(least, worstAround(mesh_, cornersOf(mesh_, faces)));
         if (!fillWithBeside(faces, kMostAdded + 1 - way.crossed.size(), lowest)) continue;
         mesh_.commit();
+        ++statistics_.pairs;
         break;
       }
     }

@@ -219,7 +219,8 @@ std::string meshText(const MeshResult& result) {
   std::vector<std::string> parts;
   for (const auto& [method, count] : methods) parts.push_back(std::to_string(count) + " by " + method);
   if (result.elementsCut) {
-    reasons += line("", "elements of twice the size, each cut up: triangles were left that could not be paired");
+    reasons +=
+        line("", "elements of twice the size, each cut up: with paired triangles there was no whole, valid mesh");
   }
   if (result.fittedSizes) reasons += line("", "sizes vary to fit the cross field");
   if (result.sizing.bySizes > 0) {

@@ -138,7 +138,7 @@ function worstElement({ elementScaledJacobian }: MeshResult, zoomTo: (target: Ta
 /** Where the mesh could not be made as everywhere else. */
 function exceptionsOf({ elementsCut, refinedPlaces, heldFaces, heldPlaces }: MeshReport): string {
   const told: string[] = [];
-  if (elementsCut) told.push('Elements of twice the size, each cut up: triangles were left that could not be paired.');
+  if (elementsCut) told.push('Elements of twice the size, each cut up: with paired triangles there was no whole, valid mesh.');
   if (refinedPlaces > 0) {
     told.push(`Smaller elements at ${format.counted(refinedPlaces, 'place')} that elements of the size could not follow.`);
   }
