@@ -140,8 +140,7 @@ void checkRecall(const Case& made, const QualityReport& quality, std::vector<std
   // Chords of arcs in few divisions turn by up to the angle that counts, and corners of 45 degrees are a matter of
   // taste.
   constexpr double kLeast = 0.9;
-  if (!hasStepsTooLow(made.part))
-    expect(faults, quality.sharpRecall.value_or(1.0) >= kLeast, "sharp edges are lost");
+  if (!hasStepsTooLow(made.part)) expect(faults, quality.sharpRecall.value_or(1.0) >= kLeast, "sharp edges are lost");
   expect(faults, quality.boundaryRecall.value_or(1.0) >= kLeast, "boundary is lost");
   expect(faults, quality.cornerRecall.value_or(1.0) >= kLeast, "corners are lost");
 }

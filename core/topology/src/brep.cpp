@@ -11,6 +11,7 @@
 #include "feature_edges.hpp"
 #include "qmcf/base/math.hpp"
 #include "qmcf/mesh/sharp_angle.hpp"
+#include "ring_starts.hpp"
 #include "triangle_edges.hpp"
 
 namespace qmcf {
@@ -49,9 +50,9 @@ class BrepBuilder {
   Brep build() {
     measureFans();
     findCorners();
+    floodFaces();
     traceEdges();
     numberVertices();
-    floodFaces();
     traceLoops();
     listBodies();
     nameFaces();
@@ -139,14 +140,45 @@ class BrepBuilder {
       if (role_[v] == Role::none) continue;
       for (const EdgeId e : around_.at(VertexId(v))) traceEdge(VertexId(v), e);
     }
-    // What is left are closed chains without a corner: the first vertex in the mesh's order becomes their end.
-    for (std::size_t v = 0; v < role_.size(); ++v) {
-      for (const EdgeId e : around_.at(VertexId(v))) {
-        if (edgeOf_[e] != kNone) continue;
-        role_[v] = Role::artificial;
-        traceEdge(VertexId(v), e);
+    // What is left are closed chains without a corner.
+    for (const VertexId start : placeRingStarts(mesh_, findRings(), verticesOfFaces())) {
+      role_[start.index()] = Role::artificial;
+      traceEdge(start, around_.at(start)[0]);
+    }
+  }
+
+  /// The closed chains of cutting edges that no vertex of the B-rep is on.
+  [[nodiscard]] std::vector<Ring> findRings() const {
+    std::vector<Ring> rings;
+    IdMap<EdgeId, std::uint8_t> seen;
+    seen.resize(edges_.edgeCount(), 0);
+    for (std::size_t first = 0; first < role_.size(); ++first) {
+      for (EdgeId e : around_.at(VertexId(first))) {
+        if (edgeOf_[e] != kNone || seen[e] != 0) continue;
+        Ring& ring = rings.emplace_back();
+        for (const HalfedgeId h : edges_.uses(e)) {
+          ring.faces.push_back(brep_.triangleFace[Surface::triangle(h).index()]);
+        }
+        for (VertexId v(first); seen[e] == 0;) {
+          seen[e] = 1;
+          ring.points.push_back(v);
+          v = edges_.otherEnd(e, v);
+          const auto around = around_.at(v);
+          e = around[0] == e ? around[1] : around[0];
+        }
       }
     }
+    return rings;
+  }
+
+  [[nodiscard]] std::vector<std::vector<VertexId>> verticesOfFaces() const {
+    std::vector<std::vector<VertexId>> vertices(brep_.faces.size());
+    for (const HalfedgeId h : edges_.halfedges()) {
+      const VertexId v = edges_.origin(h);
+      if (features_.mark[edges_.edge(h)] == 0 || role_[v.index()] == Role::none) continue;
+      vertices[static_cast<std::size_t>(brep_.triangleFace[Surface::triangle(h).index()])].push_back(v);
+    }
+    return vertices;
   }
 
   void traceEdge(VertexId v, EdgeId e) {

@@ -4,6 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <numeric>
+#include <utility>
+#include <vector>
 
 #include "qmcf/base/math.hpp"
 #include "qmcf/base/random.hpp"
@@ -61,6 +65,53 @@ TEST(Brep, CylinderHasThreeFacesAndTwoClosedEdges) {
   }
   std::sort(loops.begin(), loops.end());
   EXPECT_EQ(loops, (std::vector<std::size_t>{1, 1, 2}));
+}
+
+/// The same mesh with its vertices in another order.
+TriangleMesh shuffled(const TriangleMesh& mesh, std::uint64_t seed) {
+  Random random(seed);
+  std::vector<std::int32_t> place(mesh.positions.size());
+  std::iota(place.begin(), place.end(), 0);
+  for (std::size_t i = place.size(); i-- > 1;) {
+    std::swap(place[i], place[static_cast<std::size_t>(random.uniform(0.0, static_cast<double>(i + 1)))]);
+  }
+  TriangleMesh result = mesh;
+  for (std::size_t v = 0; v < place.size(); ++v) result.positions[std::size_t(place[v])] = mesh.positions[v];
+  for (auto& triangle : result.triangles) {
+    for (std::int32_t& v : triangle) v = place[std::size_t(v)];
+  }
+  return result;
+}
+
+TEST(Brep, RimsOfATubeBeginAcrossFromEachOther) {
+  const auto tube = [](double u, double v) {
+    return Vec3{math::cos(2.0 * kPi * u), math::sin(2.0 * kPi * u), 3.0 * v};
+  };
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    const TriangleMesh mesh = shuffled(shapes::grid(40, 3, tube, true), seed);
+    const Brep brep = checkedBrep(mesh);
+    ASSERT_EQ(brep.vertices.size(), 2U);
+    const auto start = [&](std::size_t i) { return mesh.positions[std::size_t(brep.vertices[i].point)]; };
+    EXPECT_NEAR(distance(start(0), start(1)), 3.0, 1e-12) << seed;
+  }
+}
+
+TEST(Brep, AHoleBeginsNearestToACornerOfItsFace) {
+  const auto plate = [](double u, double v) {
+    const Vec3 onCircle{math::cos(2.0 * kPi * u), math::sin(2.0 * kPi * u), 0.0};
+    const Vec3 onSquare = onCircle * (2.0 / std::max(std::fabs(onCircle.x), std::fabs(onCircle.y)));
+    return onCircle * (1.0 - v) + onSquare * v;
+  };
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    const TriangleMesh mesh = shuffled(shapes::grid(40, 3, plate, true), seed);
+    const Brep brep = checkedBrep(mesh);
+    const auto start = std::find_if(brep.vertices.begin(), brep.vertices.end(),
+                                    [](const BrepVertex& vertex) { return vertex.artificial; });
+    ASSERT_NE(start, brep.vertices.end());
+    const Vec3 p = mesh.positions[std::size_t(start->point)];
+    EXPECT_NEAR(norm(p), 1.0, 1e-12);
+    EXPECT_NEAR(std::fabs(p.x), std::fabs(p.y), 1e-12) << seed;
+  }
 }
 
 TEST(Brep, LShapedPrismHasOneReentrantCorner) {
