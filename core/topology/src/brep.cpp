@@ -141,7 +141,7 @@ class BrepBuilder {
       for (const EdgeId e : around_.at(VertexId(v))) traceEdge(VertexId(v), e);
     }
     // What is left are closed chains without a corner.
-    for (const VertexId start : placeRingStarts(mesh_, findRings(), verticesOfFaces())) {
+    for (const VertexId start : placeRingStarts(mesh_, findRings(), facesWithVertices())) {
       role_[start.index()] = Role::artificial;
       traceEdge(start, around_.at(start)[0]);
     }
@@ -171,14 +171,14 @@ class BrepBuilder {
     return rings;
   }
 
-  [[nodiscard]] std::vector<std::vector<VertexId>> verticesOfFaces() const {
-    std::vector<std::vector<VertexId>> vertices(brep_.faces.size());
+  /// Per face, 1 where a vertex of the B-rep is on its boundary.
+  [[nodiscard]] std::vector<std::uint8_t> facesWithVertices() const {
+    std::vector<std::uint8_t> has(brep_.faces.size(), 0);
     for (const HalfedgeId h : edges_.halfedges()) {
-      const VertexId v = edges_.origin(h);
-      if (features_.mark[edges_.edge(h)] == 0 || role_[v.index()] == Role::none) continue;
-      vertices[static_cast<std::size_t>(brep_.triangleFace[Surface::triangle(h).index()])].push_back(v);
+      if (features_.mark[edges_.edge(h)] == 0 || role_[edges_.origin(h).index()] == Role::none) continue;
+      has[static_cast<std::size_t>(brep_.triangleFace[Surface::triangle(h).index()])] = 1;
     }
-    return vertices;
+    return has;
   }
 
   void traceEdge(VertexId v, EdgeId e) {

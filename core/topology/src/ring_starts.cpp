@@ -6,22 +6,17 @@
 namespace qmcf::detail {
 namespace {
 
-constexpr std::size_t kMostPairs = 1'000'000;
-
 class StartPlacement {
  public:
-  StartPlacement(const TriangleMesh& mesh, const std::vector<Ring>& rings,
-                 const std::vector<std::vector<VertexId>>& verticesOf)
-      : mesh_(mesh), rings_(rings), verticesOf_(verticesOf), ringsOf_(verticesOf.size()), start_(rings.size()) {
+  StartPlacement(const TriangleMesh& mesh, const std::vector<Ring>& rings, const std::vector<std::uint8_t>& hasVertices)
+      : mesh_(mesh), rings_(rings), hasVertices_(hasVertices), ringsOf_(hasVertices.size()), start_(rings.size()) {
     for (std::size_t r = 0; r < rings.size(); ++r) {
       for (const std::int32_t face : rings[r].faces) ringsOf_[static_cast<std::size_t>(face)].push_back(r);
     }
   }
 
   std::vector<VertexId> place() {
-    for (std::size_t r = 0; r < rings_.size(); ++r) begin(r, nearestToVertices(r));
-    passOn();
-    for (std::size_t r = 0; r < rings_.size(); ++r) {
+    for (std::size_t r = rings_.size(); r-- > 0;) {
       if (start_[r].valid()) continue;
       begin(r, rings_[r].points.front());
       passOn();
@@ -33,32 +28,12 @@ class StartPlacement {
   [[nodiscard]] const Vec3& at(VertexId v) const { return mesh_.positions[v.index()]; }
 
   void begin(std::size_t ring, VertexId start) {
-    if (!start.valid()) return;
     start_[ring] = start;
     open_.push_back(ring);
   }
 
-  /// The point that is nearest to a vertex of a face with no other ring; invalid where there is none.
-  [[nodiscard]] VertexId nearestToVertices(std::size_t ring) const {
-    VertexId nearest;
-    double least = std::numeric_limits<double>::infinity();
-    for (const std::int32_t f : rings_[ring].faces) {
-      const std::vector<VertexId>& vertices = verticesOf_[static_cast<std::size_t>(f)];
-      if (ringsOf_[static_cast<std::size_t>(f)].size() != 1) continue;
-      if (vertices.size() * rings_[ring].points.size() > kMostPairs) continue;
-      for (const VertexId v : vertices) {
-        const VertexId near = nearestTo(ring, v);
-        const double distance = squaredNorm(at(near) - at(v));
-        if (!(distance < least)) continue;
-        least = distance;
-        nearest = near;
-      }
-    }
-    return nearest;
-  }
-
   [[nodiscard]] VertexId nearestTo(std::size_t ring, VertexId v) const {
-    VertexId nearest;
+    VertexId nearest = rings_[ring].points.front();
     double least = std::numeric_limits<double>::infinity();
     for (const VertexId point : rings_[ring].points) {
       const double distance = squaredNorm(at(point) - at(v));
@@ -69,14 +44,14 @@ class StartPlacement {
     return nearest;
   }
 
-  /// From rings that have a start over the faces beside them.
+  /// From rings that have a start to those across from them.
   void passOn() {
     while (!open_.empty()) {
       const std::size_t ring = open_.back();
       open_.pop_back();
       for (const std::int32_t face : rings_[ring].faces) {
         const auto f = static_cast<std::size_t>(face);
-        if (ringsOf_[f].size() != 2 || !verticesOf_[f].empty()) continue;
+        if (ringsOf_[f].size() != 2 || hasVertices_[f] != 0) continue;
         const std::size_t other = ringsOf_[f][ringsOf_[f][0] == ring ? 1 : 0];
         if (!start_[other].valid()) begin(other, nearestTo(other, start_[ring]));
       }
@@ -85,7 +60,7 @@ class StartPlacement {
 
   const TriangleMesh& mesh_;
   const std::vector<Ring>& rings_;
-  const std::vector<std::vector<VertexId>>& verticesOf_;
+  const std::vector<std::uint8_t>& hasVertices_;
   std::vector<std::vector<std::size_t>> ringsOf_;  ///< Per face.
   std::vector<VertexId> start_;                    ///< Per ring; invalid: not known yet.
   std::vector<std::size_t> open_;                  ///< Rings whose start has not been passed on.
@@ -94,8 +69,8 @@ class StartPlacement {
 }  // namespace
 
 std::vector<VertexId> placeRingStarts(const TriangleMesh& mesh, const std::vector<Ring>& rings,
-                                      const std::vector<std::vector<VertexId>>& verticesOf) {
-  return StartPlacement(mesh, rings, verticesOf).place();
+                                      const std::vector<std::uint8_t>& hasVertices) {
+  return StartPlacement(mesh, rings, hasVertices).place();
 }
 
 }  // namespace qmcf::detail

@@ -96,24 +96,6 @@ TEST(Brep, RimsOfATubeBeginAcrossFromEachOther) {
   }
 }
 
-TEST(Brep, AHoleBeginsNearestToACornerOfItsFace) {
-  const auto plate = [](double u, double v) {
-    const Vec3 onCircle{math::cos(2.0 * kPi * u), math::sin(2.0 * kPi * u), 0.0};
-    const Vec3 onSquare = onCircle * (2.0 / std::max(std::fabs(onCircle.x), std::fabs(onCircle.y)));
-    return onCircle * (1.0 - v) + onSquare * v;
-  };
-  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
-    const TriangleMesh mesh = shuffled(shapes::grid(40, 3, plate, true), seed);
-    const Brep brep = checkedBrep(mesh);
-    const auto start = std::find_if(brep.vertices.begin(), brep.vertices.end(),
-                                    [](const BrepVertex& vertex) { return vertex.artificial; });
-    ASSERT_NE(start, brep.vertices.end());
-    const Vec3 p = mesh.positions[std::size_t(start->point)];
-    EXPECT_NEAR(norm(p), 1.0, 1e-12);
-    EXPECT_NEAR(std::fabs(p.x), std::fabs(p.y), 1e-12) << seed;
-  }
-}
-
 TEST(Brep, LShapedPrismHasOneReentrantCorner) {
   const Brep brep = checkedBrep(shapes::prism({{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}}, {0.5, 0.5}));
   EXPECT_EQ(brep.faces.size(), 8U);
