@@ -422,7 +422,7 @@ std::vector<double> scaledJacobians(const QuadMesh& mesh) {
   const auto at = [&](std::int32_t v) -> const Vec3& { return mesh.positions[static_cast<std::size_t>(v)]; };
   for (const Element& e : mesh.elements) {
     values.push_back(cornerCount(e) == 3 ? triangleScaledJacobian(at(e[0]), at(e[1]), at(e[2]))
-                                         : quadMetrics(at(e[0]), at(e[1]), at(e[2]), at(e[3])).scaledJacobian);
+                                         : quadScaledJacobian(at(e[0]), at(e[1]), at(e[2]), at(e[3])));
   }
   return values;
 }
@@ -473,19 +473,29 @@ val fieldModel(const val& input, const val& options) { return run(input, options
 
 val meshModel(const val& input, const val& options) { return run(input, options, meshSurface, meshValue); }
 
-/// The bytes of a file of the given extension from the arrays of an earlier result.
-val writeModel(const val& input, const std::string& extension) {
-  const std::optional<OutputFormat> format = outputFormatOf("mesh." + extension);
-  if (!format) {
-    return failure({ErrorCode::unsupportedOutput, "Files of the type \"" + extension + "\" can't be written.", {}});
+/// The arrays of an earlier result, or of anybody else's making.
+Result<QuadMesh> toQuadMesh(const val& input, std::size_t faceNames) {
+  const std::size_t coordinates = lengthOf(input["positions"]);
+  const std::size_t corners = lengthOf(input["elements"]);
+  const std::size_t segments = lengthOf(input["featureSegments"]);
+  if (coordinates % 3 != 0 || corners % 4 != 0 || segments % 3 != 0) {
+    return Error{ErrorCode::malformedInput,
+                 "The lengths of positions and featureSegments must be multiples of 3, that of elements one of 4.",
+                 {}};
   }
   QuadMesh mesh;
-  mesh.positions.resize(lengthOf(input["positions"]) / 3);
-  mesh.elements.resize(lengthOf(input["elements"]) / 4);
+  mesh.positions.resize(coordinates / 3);
+  mesh.elements.resize(corners / 4);
   mesh.elementFace.resize(lengthOf(input["elementFace"]));
-  mesh.featureSegments.resize(lengthOf(input["featureSegments"]) / 3);
+  mesh.featureSegments.resize(segments / 3);
   if (mesh.positions.empty() || mesh.elements.empty()) {
-    return failure({ErrorCode::emptyInput, "There are no elements to write.", {}});
+    return Error{ErrorCode::emptyInput, "There are no elements to write.", {}};
+  }
+  if (mesh.elementFace.size() != mesh.elements.size()) {
+    return Error{ErrorCode::malformedInput,
+                 "elementFace must have one number for each of the " + std::to_string(mesh.elements.size()) +
+                     " elements, not " + std::to_string(mesh.elementFace.size()) + ".",
+                 {}};
   }
   copyIn(input["positions"], &mesh.positions.front().x);
   copyIn(input["elements"], mesh.elements.front().data());
@@ -493,12 +503,45 @@ val writeModel(const val& input, const std::string& extension) {
   if (!mesh.featureSegments.empty()) {
     copyIn(input["featureSegments"], &mesh.featureSegments.front().a);
   }
+  const auto isVertex = [&](std::int32_t v) { return v >= 0 && static_cast<std::size_t>(v) < mesh.positions.size(); };
+  const std::size_t faces = std::max(faceNames, mesh.elements.size());
+  for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
+    const Element& element = mesh.elements[e];
+    const std::int32_t face = mesh.elementFace[e];
+    if (!std::all_of(element.begin(), element.begin() + cornerCount(element), isVertex) || face < 0 ||
+        static_cast<std::size_t>(face) >= faces) {
+      return Error{ErrorCode::indexOutOfRange,
+                   "Element " + std::to_string(e) + " names a vertex or a face that there is not.",
+                   {}};
+    }
+  }
+  for (std::size_t s = 0; s < mesh.featureSegments.size(); ++s) {
+    const FeatureSegment& segment = mesh.featureSegments[s];
+    if (!isVertex(segment.a) || !isVertex(segment.b)) {
+      return Error{ErrorCode::indexOutOfRange,
+                   "Feature segment " + std::to_string(s) + " names a vertex that there is not.",
+                   {}};
+    }
+  }
+  return mesh;
+}
+
+/// The bytes of a file of the given extension from the arrays of a mesh.
+val writeModel(const val& input, const std::string& extension) {
+  const std::optional<OutputFormat> format = outputFormatOf("mesh." + extension);
+  if (!format) {
+    return failure({ErrorCode::unsupportedOutput, "Files of the type \"" + extension + "\" can't be written.", {}});
+  }
   WriteOptions options;
   const val names = input["faceNames"];
   for (std::size_t i = 0; i < lengthOf(names); ++i) {
     options.faceNames.push_back(names[i].as<std::string>());
   }
-  const std::string content = writeMesh(mesh, *format, options);
+  const Result<QuadMesh> mesh = toQuadMesh(input, options.faceNames.size());
+  if (!mesh) {
+    return failure(mesh.error());
+  }
+  const std::string content = writeMesh(mesh.value(), *format, options);
   return success(copyOut(reinterpret_cast<const std::uint8_t*>(content.data()), content.size()));
 }
 
