@@ -145,17 +145,6 @@ Result<Patch> makePatch(const RemeshMesh& mesh, const FaceBoundary& boundary, co
   return patch;
 }
 
-double largestDistance(const RemeshMesh& mesh, const FaceReference& reference) {
-  double largest = 0.0;
-  for (std::int32_t v = 0; v < mesh.vertexCount(); ++v) {
-    if (mesh.isVertexRemoved(v)) continue;
-    const Vec3& p = mesh.positionOf(v);
-    largest =
-        std::max(largest, distance(p, reference.project(p, mesh.normal[index(v)], mesh.triangle[index(v)]).position));
-  }
-  return largest;
-}
-
 }  // namespace
 
 Result<BackgroundResult> buildBackground(const TriangleMesh& mesh, const Brep& brep, std::int32_t face,
@@ -190,7 +179,6 @@ Result<BackgroundResult> buildBackground(const TriangleMesh& mesh, const Brep& b
   Result<Patch> patch = makePatch(work, boundary, remesher.size(), face);
   if (!patch.ok()) return patch.error();
   result.patch = std::move(patch).value();
-  result.largestDistance = largestDistance(work, reference);
   result.missed = findMissedPlaces(cut.surface, reference, result.patch, size.base);
   return result;
 }

@@ -15,8 +15,8 @@
 namespace qmcf {
 
 /// Topological clean-up of one face (D9 of docs/algorithm.md). An operator is applied where it lowers the irregularity
-/// energy, the sum of (elements - wanted)^2 over the vertices, and after relaxation nearby no element is worse than
-/// options.leastShape, or than the worst before if that was less.
+/// energy, the sum of (elements - wanted)^2 over the vertices (see irregularity()), and after relaxation nearby no
+/// element is worse than options.leastShape, or than the worst before if that was less.
 class TopologicalCleanup {
  public:
   static constexpr std::int32_t kRegular = 4;  ///< Elements around a regular vertex inside.

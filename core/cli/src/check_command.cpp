@@ -38,6 +38,9 @@ int run(const CheckCommand& command) {
   options.size = command.size;
   options.featureAngle = command.featureAngle;
   const QualityReport report = measureQuality(mesh.value(), reference ? &*reference : nullptr, options);
+  // An interrupt while measuring.
+  if (!progress.report(Stage::quality, 1.0)) return fail(cancelledError(), command.mesh);
+  progress.clear();
   const std::string text = command.json
                                ? toJson(report) + "\n"
                                : "Mesh      " + command.mesh + ": " + counted(report.quads, "quad", "quads") + ", " +

@@ -51,11 +51,13 @@ void ConsoleProgress::clear() {
   shown_ = false;
 }
 
-int fail(const Error& error, const std::string& subject) {
-  std::string text = "qmcf: ";
-  if (!subject.empty()) text += subject + ": ";
-  text += error.message + "\n";
+void warn(const std::string& message, const std::string& subject) {
+  const std::string text = "qmcf: " + (subject.empty() ? "" : subject + ": ") + message + "\n";
   std::fputs(text.c_str(), stderr);
+}
+
+int fail(const Error& error, const std::string& subject) {
+  warn(error.message, subject);
   return errorExitStatus(error.code);
 }
 

@@ -32,7 +32,9 @@ class ConsoleProgress final : public Progress {
   Clock::time_point last_;
 };
 
-/// Prints "qmcf: subject: message" on standard error; the exit status of the error's code.
+/// Prints "qmcf: subject: message" on standard error.
+void warn(const std::string& message, const std::string& subject);
+/// The same for an error, which also tells the exit status.
 int fail(const Error& error, const std::string& subject = {});
 
 }  // namespace qmcf::cli

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <string>
 
 #include "files.hpp"
 
@@ -26,14 +27,20 @@ Result<std::vector<FieldStroke>> readConstraints(const std::string& path) {
   if (!bytes.ok()) return bytes.error();
   const auto* text = reinterpret_cast<const char*>(bytes.value().data());
   const Json file = Json::parse(text, text + bytes.value().size(), nullptr, false);
-  const Error wrong{
-      ErrorCode::invalidOption, path + R"( must hold {"strokes": [{"from": [x, y, z], "to": [x, y, z]}, ...]}.)", {}};
-  if (!file.is_object() || file.size() != 1 || !file.contains("strokes") || !file["strokes"].is_array()) return wrong;
+  if (!file.is_object() || file.size() != 1 || !file.contains("strokes") || !file["strokes"].is_array()) {
+    return Error{ErrorCode::invalidOption,
+                 R"(the file must hold {"strokes": [{"from": [x, y, z], "to": [x, y, z]}, ...]}.)",
+                 {}};
+  }
   std::vector<FieldStroke> strokes;
   for (const Json& stroke : file["strokes"]) {
     const std::optional<Vec3> from = pointOf(stroke, "from");
     const std::optional<Vec3> to = pointOf(stroke, "to");
-    if (!from || !to) return wrong;
+    if (!from || !to) {
+      return Error{ErrorCode::invalidOption,
+                   "strokes[" + std::to_string(strokes.size()) + R"(] must be {"from": [x, y, z], "to": [x, y, z]}.)",
+                   {static_cast<std::int64_t>(strokes.size())}};
+    }
     strokes.push_back({*from, *to});
   }
   return strokes;

@@ -79,8 +79,8 @@ void addMesh(CLI::App& app, MeshCommand& command) {
   std::optional<bool>& fitSizes = command.options.fitSizes;
   app.add_flag_callback(
       "--fit-sizes", [&fitSizes] { fitSizes = true; },
-      "Let sizes vary by up to 1.65 either way to fit the cross field, where that promises better elements\n"
-      "(the default where a number of elements is all that is asked for)");
+      "Let sizes vary to fit the cross field, where that promises better elements: mostly by less than 1.5 and\n"
+      "by 3 at most either way (the default with a number of elements)");
   app.add_flag_callback(
       "--no-fit-sizes", [&fitSizes] { fitSizes = false; }, "One size wherever the part allows it");
   const std::map<std::string, Mode> modes{{"qmcf", Mode::qmcf}, {"qmorph", Mode::qmorph}};
@@ -100,7 +100,7 @@ void addMesh(CLI::App& app, MeshCommand& command) {
                  "vertices")
       ->type_name("OUT")
       ->needs(sizingOut);
-  app.add_flag("--quiet", command.quiet, "Print nothing but errors");
+  app.add_flag("--quiet", command.quiet, "Print nothing but errors and warnings");
 }
 
 void addField(CLI::App& app, FieldCommand& command) {

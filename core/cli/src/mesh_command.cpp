@@ -97,6 +97,7 @@ int run(const MeshCommand& command) {
     const std::string text = writeMesh(sizing.triangles, *outputFormatOf(command.sizingMesh));
     if (const std::optional<Error> error = writeFile(command.sizingMesh, text)) return fail(*error);
   }
+  if (!mesh.quality.valid) warn("the mesh is not valid: see the checks in the report.", command.output);
   if (command.quiet) return kDone;
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
   const std::string text = modelText(command.input, model.value()) + partText(mesh.input) + meshText(mesh) +

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <utility>
 #include <vector>
@@ -65,6 +66,7 @@ std::string edgeCounts(const Brep& brep) {
 }
 
 std::string distributionText(const Distribution& distribution) {
+  if (std::isnan(distribution.mean)) return "of no quadrilateral";
   std::string text = "mean " + shortNumber(distribution.mean) + ", worst 1 % beyond " + shortNumber(distribution.p1) +
                      ", worst " + shortNumber(distribution.worst);
   if (distribution.infinite > 0) text += ", infinite " + std::to_string(distribution.infinite);
@@ -252,11 +254,13 @@ bool hasCreases(const Brep& brep) {
 }
 
 std::string qualityText(const QualityReport& report, bool hasCreases) {
-  std::string text = line("Shape", "scaled Jacobian " + distributionText(report.scaledJacobian)) +
-                     line("", "smallest angle " + distributionText(report.minAngle)) +
-                     line("", "aspect ratio " + distributionText(report.aspectRatio)) +
-                     line("", percent(report.regularShare) + " of the interior vertices are regular") +
-                     ledgerText(report.ledger) + fidelityText(report, hasCreases);
+  std::string text =
+      line("Shape", "scaled Jacobian " + distributionText(report.scaledJacobian)) +
+      line("", "smallest angle " + distributionText(report.minAngle)) +
+      line("", "aspect ratio " + distributionText(report.aspectRatio)) +
+      line("", report.regularShare ? percent(*report.regularShare) + " of the interior vertices are regular"
+                                   : "no interior vertices") +
+      ledgerText(report.ledger) + fidelityText(report, hasCreases);
   std::int64_t passed = 0;
   for (const ValidityCheck& check : report.checks) {
     passed += check.status == CheckStatus::pass ? 1 : 0;

@@ -146,36 +146,30 @@ class Canceller {
     return crossTurn(surface_, connection_, cross_, h) + 2.0 * math::kPi * jump_[h];
   }
 
-  [[nodiscard]] double weight(VertexId v, VertexId w) const {
-    return std::sqrt(std::norm(matrices_.energy.coeff(v.value, w.value)));
-  }
-
-  /// Calls visit(w, h, sign) for the edges between v and a vertex w; h runs from v to w if sign is 1, back if it is -1.
-  template <class Visit>
-  void forEachEdge(VertexId v, Visit visit) const {
-    surface_.forEachOutgoing(v, [&](HalfedgeId h) {
-      visit(surface_.target(h), h, 1.0);
-      const HalfedgeId before = Surface::prev(h);
-      if (surface_.isBoundary(before)) visit(surface_.origin(before), before, -1.0);
-    });
-  }
-
   /// Smooths the angles of the region's crosses with the turns along all edges given up to a gradient.
   [[nodiscard]] bool smooth(const std::vector<VertexId>& free) {
+    for (std::size_t i = 0; i < free.size(); ++i) unknown_[free[i]] = static_cast<std::int32_t>(i);
     std::vector<Eigen::Triplet<double>> entries;
     Eigen::VectorXd side = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(free.size()));
+    const auto couple = [&](VertexId v, VertexId w, double turn) {
+      const double weight = std::sqrt(std::norm(matrices_.energy.coeff(v.value, w.value)));
+      entries.emplace_back(unknown_[v], unknown_[v], weight);
+      if (unknown_[w] != kNone) entries.emplace_back(unknown_[v], unknown_[w], -weight);
+      side[unknown_[v]] += weight * turn;
+    };
     for (const VertexId v : free) {
       entries.emplace_back(unknown_[v], unknown_[v], pull(v));
       side[unknown_[v]] += pull(v) * math::arg(conditions_.guide[v.value] * std::conj(cross_[v]));
-      forEachEdge(v, [&](VertexId w, HalfedgeId h, double sign) {
-        entries.emplace_back(unknown_[v], unknown_[v], weight(v, w));
-        if (unknown_[w] != kNone) entries.emplace_back(unknown_[v], unknown_[w], -weight(v, w));
-        side[unknown_[v]] += weight(v, w) * sign * wantedTurn(h);
+      surface_.forEachOutgoing(v, [&](HalfedgeId h) {
+        couple(v, surface_.target(h), wantedTurn(h));
+        const HalfedgeId before = Surface::prev(h);
+        if (surface_.isBoundary(before)) couple(v, surface_.origin(before), -wantedTurn(before));
       });
     }
     RealMatrix system(side.size(), side.size());
     system.setFromTriplets(entries.begin(), entries.end());
     const Eigen::SimplicialLDLT<RealMatrix, Eigen::Lower, Eigen::AMDOrdering<int>> factor(system);
+    for (const VertexId v : free) unknown_[v] = kNone;
     if (factor.info() != Eigen::Success) return false;
     const Eigen::VectorXd turn = factor.solve(side);
     for (std::size_t i = 0; i < free.size(); ++i) {
@@ -184,13 +178,14 @@ class Canceller {
     return true;
   }
 
-  /// Energy of the crosses given, as far as it depends on the region: each edge once, as in smooth().
+  /// Energy of the crosses given, as far as it depends on the region. Edges inside it count twice, those to pinned and
+  /// other crosses around once: a pair may go where the field inside gets smoother and leans a little more on these.
   [[nodiscard]] double energy(const std::vector<VertexId>& free) const {
     double sum = 0.0;
     for (const VertexId v : free) {
-      forEachEdge(v, [&](VertexId w, HalfedgeId h, double) {
-        if (unknown_[w] != kNone && w < v) return;
-        sum += weight(v, w) * (1.0 - math::cos(crossTurn(surface_, connection_, cross_, h)));
+      surface_.forEachOutgoing(v, [&](HalfedgeId h) {
+        const double weight = std::sqrt(std::norm(matrices_.energy.coeff(v.value, surface_.target(h).value)));
+        sum += weight * (1.0 - math::cos(crossTurn(surface_, connection_, cross_, h)));
       });
       sum += pull(v) * (1.0 - (cross_[v] * std::conj(conditions_.guide[v.value])).real());
     }
@@ -220,17 +215,14 @@ class Canceller {
       jump_[h] = -1;
       jump_[surface_.twin(h)] = 1;
     }
-    for (std::size_t i = 0; i < free.size(); ++i) unknown_[free[i]] = static_cast<std::int32_t>(i);
     const double energyBefore = energy(free);
     const bool solved = smooth(free);
-    const double energyAfter = energy(free);
-    for (const VertexId v : free) unknown_[v] = kNone;
     for (const HalfedgeId h : pair.crossed) jump_[h] = jump_[surface_.twin(h)] = 0;
     const auto after = indicesAround(free);
     std::int32_t change = 0;
     for (const auto& [t, index] : after) change += std::abs(index) - std::abs(index_[t]);
     const double allowed = pair.distance < close_ ? kCloseGrowth * energyBefore : energyBefore;
-    if (solved && change < 0 && energyAfter <= allowed) {
+    if (solved && change < 0 && energy(free) <= allowed) {
       for (const auto& [t, index] : after) index_[t] = index;
       return true;
     }
@@ -249,7 +241,7 @@ class Canceller {
   IdMap<TriangleId, double> far_;
   IdMap<TriangleId, HalfedgeId> from_;
   IdMap<VertexId, double> near_;
-  IdMap<VertexId, std::int32_t> unknown_;  ///< While a pair is removed: place in its region.
+  IdMap<VertexId, std::int32_t> unknown_;
   IdMap<HalfedgeId, std::int32_t> jump_;
 };
 

@@ -106,6 +106,7 @@ std::optional<Error> validate(const FieldOptions& options) {
         demand(options.guidance >= 0.0, "guidance must not be negative."),
         demand(options.pinAnisotropy >= 0.0 && options.pinAnisotropy <= 1.0, "pinAnisotropy must be between 0 and 1."),
         demand(options.pinTurn >= 0.0, "pinTurn must not be negative."),
+        demand(options.denseBoundary >= 0.0, "denseBoundary must not be negative."),
         demand(options.diffusionLength > 0.0, "diffusionLength must be positive."),
         demand(options.cancelDistance >= 0.0, "cancelDistance must not be negative.")}) {
     if (error) return error;

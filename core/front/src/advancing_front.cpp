@@ -61,7 +61,6 @@ class Advance {
   VertexId realize(HalfedgeId sector, const SideProposal& side);
   bool fitsSize(VertexId a, VertexId b, int pass) const;
   void finishQuad(FaceId f, int level);
-  void closeSmallLoops(const std::vector<HalfedgeId>& edges, int pass);
   void relaxAround(const std::vector<VertexId>& vertices);
   std::int32_t& level(HalfedgeId h) {
     if (h.index() >= levels_.size()) levels_.resize(std::max(h.index() + 1, 2 * levels_.size()), 0);

@@ -6,7 +6,7 @@ namespace qmcf {
 namespace {
 
 /// How far an attempt looks, in element sizes or lengths of the front's edges, whichever are longer: a walk of 2.6
-/// sizes, front nodes within 2 of a side edge's end, loops of up to ten edges.
+/// sizes, front nodes within 2 of a side edge's end, loops of up to six edges.
 constexpr double kReach = 5.0;
 /// With more changes than this since the failure, one of them is near.
 constexpr std::size_t kMostChanges = 2000;

@@ -8,7 +8,7 @@
 namespace qmcf {
 
 /// Finds the format from the content; a byte order mark must have been removed.
-/// Errors: emptyInput, unknownFormat (names the format when it is a known one), truncatedInput.
+/// Errors: emptyInput, unknownFormat (names the format when it is a known one).
 Result<InputFormat> detectFormat(std::string_view bytes);
 
 }  // namespace qmcf

@@ -12,9 +12,9 @@ namespace qmcf {
 
 /// Cuts polygons in space into triangles without new vertices: n corners give n - 2 triangles, oriented like the
 /// polygon. A quadrilateral is cut along the only diagonal inside it; of two, a flat one along the shorter,
-/// a bent one from its first corner. Larger polygons lose ears in
-/// the plane they lie in, well-shaped ones first; whatever defies that (self-intersecting outlines) ends as a fan.
-/// Typically O(n log n) for n corners; the number of steps is bounded by a multiple of n whatever the outline.
+/// a bent one from its first corner. Larger polygons lose ears in the plane they lie in, well-shaped ones first;
+/// whatever defies that (self-intersecting outlines) ends as a fan. Typically O(n log n) for n corners; the number of
+/// steps is bounded by a multiple of n whatever the outline.
 class PolygonTriangulator {
  public:
   explicit PolygonTriangulator(const std::vector<Vec3>& positions) : positions_(positions) {}

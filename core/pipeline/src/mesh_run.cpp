@@ -31,6 +31,7 @@ constexpr double kFewElements = 300.0;
 /// from these, then their faces, then all.
 constexpr std::array<double, 2> kHeldElements{3.0, 6.0};
 constexpr std::size_t kMaxHolds = kHeldElements.size() + 1;
+constexpr std::size_t kMostHeldPlaces = 1000;  ///< Where there are more faults their faces are held at once.
 /// Where more than one of so many elements is a triangle that could not be paired, smaller ones won't help; nor where
 /// they did not so often.
 constexpr double kElementsPerUnpaired = 50.0;
@@ -330,7 +331,7 @@ class MeshRun {
     for (std::size_t round = 0; round < kMaxHolds && faults.size() > least; ++round) {
       for (const SizeLimit& fault : faults) {
         const auto f = static_cast<std::size_t>(fault.face);
-        if (round < kHeldElements.size()) {
+        if (round < kHeldElements.size() && faults.size() <= kMostHeldPlaces) {
           // The limit is half the size of the element at fault.
           holdPlace(held.places[f], fault.position, 2.0 * kHeldElements[round] * fault.size);
         } else {

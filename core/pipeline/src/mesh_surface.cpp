@@ -81,9 +81,12 @@ std::optional<Error> validateOptions(const MeshOptions& options) {
   if (options.threads && (*options.threads < 1 || *options.threads > kMostThreads)) {
     return invalid("threads must be between 1 and 256.");
   }
-  for (const FieldStroke& stroke : options.strokes) {
-    const double length = norm(stroke.to - stroke.from);  // NaN or infinite if any coordinate is.
-    if (!(length > 0.0 && std::isfinite(length))) return invalid("Each of the strokes must join two different points.");
+  for (std::size_t i = 0; i < options.strokes.size(); ++i) {
+    const double length = norm(options.strokes[i].to - options.strokes[i].from);  // NaN or infinite if a coordinate is.
+    if (length > 0.0 && std::isfinite(length)) continue;
+    return Error{ErrorCode::invalidOption,
+                 "strokes[" + std::to_string(i) + "] must join two different points.",
+                 {static_cast<std::int64_t>(i)}};
   }
   return std::nullopt;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <optional>
+#include <string>
 #include <utility>
 
 #include "qmcf/base/parallel.hpp"
@@ -13,7 +14,7 @@
 namespace qmcf {
 namespace {
 
-/// Each round at least doubles the divisions of an edge that was too coarse, down to the input's own segments.
+/// Each round at least doubles the divisions of an edge that was too coarse; then its faces get their own triangles.
 constexpr int kMaxDivisionRounds = 12;
 /// Rounds in which faces that are still too coarse get their own triangles, and their neighbours what that makes of
 /// them.
@@ -137,8 +138,10 @@ class Preparation {
         return finish();
       }
     }
+    const std::string first = tooCoarse_.empty() ? "" : ", first at edge " + std::to_string(tooCoarse_.front());
     return Error{ErrorCode::internal,
-                 "Some faces could not be triangulated with any number of divisions of their edges.",
+                 "The faces beside " + std::to_string(tooCoarse_.size()) +
+                     " edges could not be triangulated with any number of divisions of these" + first + ".",
                  {tooCoarse_.begin(), tooCoarse_.end()}};
   }
 

@@ -1,6 +1,7 @@
 #include "qmcf/pipeline/report_json.hpp"
 
 #include <algorithm>
+#include <cstddef>
 #include <nlohmann/json.hpp>
 
 namespace qmcf {
@@ -39,10 +40,12 @@ Json toValue(const SizeSources& sources) {
 }
 
 Json toValue(const ValidityCheck& check) {
+  constexpr std::size_t kMostIds = 100;
+  const auto end = check.elements.begin() + static_cast<std::ptrdiff_t>(std::min(check.elements.size(), kMostIds));
   return {{"name", check.name},
           {"status", checkStatusName(check.status)},
           {"count", check.count},
-          {"elements", check.elements},
+          {"elements", std::vector<std::int64_t>(check.elements.begin(), end)},
           {"sentence", check.sentence}};
 }
 
@@ -143,7 +146,7 @@ Json toValue(const QualityReport& report) {
                {"quads", report.quads},
                {"triangles", report.triangles},
                {"quadShare", report.quadShare},
-               {"regularShare", report.regularShare},
+               {"regularShare", toValue(report.regularShare)},
                {"interiorVertices", report.interiorVertices},
                {"irregularVertices", report.irregularVertices},
                {"doublets", report.doublets},

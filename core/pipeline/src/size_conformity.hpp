@@ -16,7 +16,7 @@ SizeConformity sizeConformity(const QuadMesh& mesh, const TriangleMesh& repaired
                               const SizeField* asked, double coarsening);
 
 /// The target length at each vertex of the input, divided by `coarsening`: the field's value at the closest point of
-/// the repaired mesh, linear in its triangles. Empty triangles: \pre repaired has at least one.
+/// the repaired mesh, linear in its triangles. \pre repaired has a triangle
 std::vector<double> sizesAt(const std::vector<Vec3>& points, const TriangleMesh& repaired, const SizeField& size,
                             double coarsening);
 

@@ -20,18 +20,12 @@ std::string_view checkStatusName(CheckStatus status) {
 }
 
 namespace quality {
-namespace {
 
-constexpr std::size_t kMostElements = 100;
-
-}  // namespace
-
-void CheckList::add(std::string_view name, CheckStatus status, const std::vector<std::int64_t>& defects,
+void CheckList::add(std::string_view name, CheckStatus status, std::vector<std::int64_t> defects,
                     std::string_view what) {
   const auto count = static_cast<std::int64_t>(defects.size());
   addCount(name, status, count, std::to_string(count) + " " + std::string(what) + ".");
-  const std::size_t shown = std::min(defects.size(), kMostElements);
-  checks_.back().elements.assign(defects.begin(), defects.begin() + static_cast<std::ptrdiff_t>(shown));
+  checks_.back().elements = std::move(defects);
 }
 
 void CheckList::addCount(std::string_view name, CheckStatus status, std::int64_t count, std::string sentence) {

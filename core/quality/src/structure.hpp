@@ -37,7 +37,7 @@ struct EdgeTable {
 /// Two uses in the same direction: the elements disagree about the surface's side.
 bool isOrientationConflict(const EdgeTable& table, const EdgeRecord& edge);
 
-/// How the elements of a mesh hang together. Malformed elements (see usableElements) take no part.
+/// How the elements of a mesh hang together. Malformed elements (see Screening::usable) take no part.
 struct Structure {
   EdgeTable edges;
   std::vector<std::int32_t> elementsAround;  ///< Per vertex: elements that use it.

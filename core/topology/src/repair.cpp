@@ -1,6 +1,6 @@
 // Repair of triangle soups, in the order of Botsch et al. and Gueziec et al. 2001: exact identification first, then
-// what changes triangles, then orientation. Nothing
-// moves a vertex further than the tolerance.
+// what changes triangles, then orientation. No
+// step moves a vertex further than the tolerance.
 
 #include "qmcf/topology/repair.hpp"
 

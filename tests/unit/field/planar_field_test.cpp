@@ -168,6 +168,7 @@ TEST(PlanarField, RefusesOptionsOutOfRange) {
   EXPECT_TRUE(refused([](FieldOptions& o) { o.smoothness = 0.5; }));
   EXPECT_TRUE(refused([](FieldOptions& o) { o.shift = 0.1; }));
   EXPECT_TRUE(refused([nan](FieldOptions& o) { o.guidance = nan; }));
+  EXPECT_TRUE(refused([nan](FieldOptions& o) { o.denseBoundary = nan; }));
   EXPECT_TRUE(refused([](FieldOptions& o) { o.pinAnisotropy = 2.0; }));
   EXPECT_TRUE(refused([](FieldOptions& o) { o.pinTurn = -1.0; }));
   EXPECT_TRUE(refused([](FieldOptions& o) { o.diffusionLength = 0.0; }));

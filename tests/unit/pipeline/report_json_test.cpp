@@ -72,6 +72,21 @@ TEST(ReportJson, QualityReportKeepsItsFieldNames) {
   EXPECT_EQ(json["valid"], true);
 }
 
+TEST(ReportJson, ListsAtMostAHundredIds) {
+  QualityReport report;
+  report.checks = {{"cracks", CheckStatus::fail, 250, std::vector<std::int64_t>(250, 7), "250 vertices are apart."}};
+  const auto json = nlohmann::json::parse(toJson(report));
+  EXPECT_EQ(json["checks"][0]["elements"].size(), 100U);
+  EXPECT_EQ(json["checks"][0]["count"], 250);
+}
+
+TEST(ReportJson, WhatWasNotMeasuredIsNull) {
+  const auto json = nlohmann::json::parse(toJson(QualityReport{}));
+  EXPECT_TRUE(json["scaledJacobian"]["mean"].is_null());
+  EXPECT_TRUE(json["triangleScaledJacobian"]["worst"].is_null());
+  EXPECT_TRUE(json["regularShare"].is_null());
+}
+
 TEST(ReportJson, MeshResultHoldsAllReports) {
   MeshResult result;
   result.input = exampleInput();

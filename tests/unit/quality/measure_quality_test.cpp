@@ -44,7 +44,7 @@ TEST(MeasureQuality, CountsAndFiguresOfACube) {
   EXPECT_EQ(report.boundaryEdges, 0);
   EXPECT_EQ(report.interiorVertices, report.vertices);
   EXPECT_EQ(report.irregularVertices, 8);
-  EXPECT_DOUBLE_EQ(report.regularShare, 1.0 - 8.0 / (6 * n * n + 2));
+  EXPECT_DOUBLE_EQ(*report.regularShare, 1.0 - 8.0 / (6 * n * n + 2));
   EXPECT_DOUBLE_EQ(report.quadShare, 1.0);
   EXPECT_DOUBLE_EQ(report.area, 6.0 * n * n);
   EXPECT_DOUBLE_EQ(report.size, 1.0);
@@ -53,6 +53,13 @@ TEST(MeasureQuality, CountsAndFiguresOfACube) {
   EXPECT_FALSE(report.largestDistance.has_value());
   EXPECT_FALSE(report.sharpRecall.has_value());
   expectFailures(report, {});
+}
+
+TEST(MeasureQuality, ARowHasNoShareOfRegularVerticesAndNoTriangles) {
+  const QualityReport report = measureQuality(quadSheet(5, 1, {}, {1, 0, 0}, {0, 1, 0}), nullptr, {});
+  EXPECT_EQ(report.interiorVertices, 0);
+  EXPECT_FALSE(report.regularShare.has_value());
+  EXPECT_TRUE(std::isnan(report.triangleScaledJacobian.worst));
 }
 
 TEST(MeasureQuality, SizeErrorIsInPowersOfTwo) {

@@ -25,7 +25,6 @@ struct BackgroundResult {
   Patch patch;                          ///< Its boundary edges are exactly the divisions of the face's edges.
   std::vector<std::int32_t> tooCoarse;  ///< Edges of the B-rep whose chords cut through the face; then patch is empty.
   std::vector<SizeLimit> missed;  ///< Where the size is too large for the patch to follow the face, with a better one.
-  double largestDistance = 0.0;   ///< Of the patch's vertices from the face's triangles.
 };
 
 /// Remeshes one face isotropically to the size field with its boundary given by the divided edges: the boundary of the

@@ -64,7 +64,9 @@ struct FieldOptions {
   double denseBoundary = 6.0;
   bool diffuse = true;           ///< Spread the singularities by diffusing and renormalising.
   double diffusionLength = 2.5;  ///< What the last diffusion smooths over, in elements, > 0.
-  double cancelDistance = 3.0;   ///< Opposite singularities closer than this many elements are removed; 0: none.
+  /// Opposite singularities closer than this many elements, >= 0, are removed where the energy around at most doubles
+  /// by that, and those within 8 elements where it does not rise. 0: all stay.
+  double cancelDistance = 3.0;
 };
 
 /// A cross per vertex and what follows from it.

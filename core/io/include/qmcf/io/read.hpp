@@ -34,7 +34,8 @@ Result<ReadModel> readModel(std::span<const std::byte> bytes, Progress& progress
 /// different points (0 and -0 are equal) stand for them, numbered as they first appear. Complexity O(n log n).
 std::vector<std::int32_t> fileVertices(const ReadModel& model);
 
-/// Reads an OBJ or PLY of triangles and quadrilaterals as it is, for `qmcf check`.
+/// Reads an OBJ or PLY of triangles and quadrilaterals as it is, for `qmcf check`. Errors: as readModel();
+/// unknownFormat also for STL, malformedInput for other polygons.
 Result<QuadMesh> readQuadMesh(std::span<const std::byte> bytes, Progress& progress);
 
 }  // namespace qmcf

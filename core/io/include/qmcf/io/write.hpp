@@ -24,10 +24,10 @@ struct WriteOptions {
       edgeNames;  ///< Per edge of the B-rep: group name; empty or missing: "edge_N", N being its id.
 };
 
-/// The file's content, bytes. Coordinates of all formats but STL are written so that reading them gives the same
-/// doubles. Faces and feature edges become named groups (OBJ groups, physical groups, element and node sets,
-/// properties) where the format has them; names lose the characters that the format can't hold, and equal names are
-/// numbered.
+/// The file's content, bytes. Coordinates are written so that reading them gives the same doubles, but in STL (single
+/// precision), INP and BDF (as many digits as 20 and 16 characters hold). Faces and feature edges become named groups
+/// (OBJ groups, physical groups, element and node sets, properties) where the format has them; names lose the
+/// characters that the format can't hold, and equal names are numbered.
 std::string writeMesh(const QuadMesh& mesh, OutputFormat format, const WriteOptions& options = {});
 
 }  // namespace qmcf

@@ -41,9 +41,10 @@ struct MeshOptions {
   /// elements holds with it, up to where three times the size would be needed elsewhere. Unset: curved faces have no
   /// smaller elements than flat ones.
   std::optional<double> curvature;
-  /// Let the size vary, by up to 1.65 either way, to fit the cross field and the sizes on the edges of faces, where
-  /// that promises better elements: fewer of their rows end inside faces. The number of elements and the mean size are
-  /// kept. Needs mode qmcf, and size where there are sizes. Unset: where a number of elements is all that is asked for.
+  /// Let the size vary, mostly by less than 1.5 and by 3 at most either way, to fit the cross field and the sizes on
+  /// the edges of faces, where that promises better elements: fewer of their rows end inside faces. The number of
+  /// elements and the mean size are kept. Needs mode qmcf, and size where there are sizes. Unset: where a number of
+  /// elements is asked for, or nothing is.
   std::optional<bool> fitSizes;
   double featureAngle = 30.0;  ///< Dihedral angle in degrees, (0, 180), from which an edge is sharp.
   Mode mode = Mode::qmcf;      ///< The advancing front.
@@ -134,7 +135,8 @@ struct MeshResult {
 Result<InspectResult> inspectSurface(const TriangleMesh& input, const MeshOptions& options, Progress& progress);
 /// Up to the cross field.
 Result<FieldResult> computeField(const TriangleMesh& input, const MeshOptions& options, Progress& progress);
-/// The whole way: a valid quad-dominant mesh of the input, or an error that says why there is none.
+/// The whole way: a quad-dominant mesh of the input, or an error that says why there is none. The mesh is valid unless
+/// all else failed and defects of the part itself are in the way: quality.valid tells, quality.checks say where.
 Result<MeshResult> meshSurface(const TriangleMesh& input, const MeshOptions& options, Progress& progress);
 /// The same. sizing: gets the sizes that the mesh was made with.
 Result<MeshResult> meshWithSizing(const TriangleMesh& input, const MeshOptions& options, Progress& progress,

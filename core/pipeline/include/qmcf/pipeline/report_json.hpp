@@ -16,7 +16,5 @@ std::string toJson(const InspectResult& result);
 std::string toJson(const MeshResult& result);
 /// The history of the faces as docs/trace.md describes it, one step a line. \pre result.trace
 std::string traceJson(const MeshResult& result);
-/// The history of the faces as docs/trace.md describes it, one step a line. \pre result.trace
-std::string traceJson(const MeshResult& result);
 
 }  // namespace qmcf

@@ -45,10 +45,10 @@ struct MorphResult {
 /// Meshes one face with the original Q-Morph (Owen, Staten, Canann, Saigal 1999; section 4.1 of the paper): triangles
 /// of the element's size are merged to quads from the front inwards, side edges are taken from the triangulation or
 /// made by a swap or a split near the bisector of the front's angle, top edges are recovered by swaps, and nodes are
-/// smoothed after each quad. Neither cross field nor size field are asked. Each quad is a transaction. What the front
-/// can't mesh is left as triangles, of which pairs become quads. The result is conforming, consistently oriented and
-/// keeps the patch's boundary vertices. face: the tree over the face's input triangles, on which moved nodes are put.
-/// trace: who records the history, or nullptr. Errors: cancelled.
+/// smoothed after each quad. The cross field is not asked, nor are sizes but for transitions. Each quad is a
+/// transaction. What the front can't mesh is left as triangles, of which pairs become quads. The result is conforming,
+/// consistently oriented and keeps the patch's boundary vertices. face: the tree over the face's input triangles, on
+/// which moved nodes are put. trace: who records the history, or nullptr. Errors: cancelled.
 Result<MorphResult> advanceMorph(const Patch& patch, const TriangleBvh& face, const MorphOptions& options,
                                  Progress& progress, TraceRecorder* trace = nullptr);
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -12,12 +13,14 @@
 
 namespace qmcf {
 
-/// Mean, worst and quantiles of one metric over the elements for which it is finite; all 0 when there is none.
+/// Mean, worst and quantiles of one metric over the elements for which it is finite; all NaN (null in JSON) when there
+/// is none.
 struct Distribution {
-  double mean = 0.0;
-  double worst = 0.0;
-  double p1 = 0.0;  ///< The worst 1 % of the elements are worse than this (interpolated between elements).
-  double median = 0.0;
+  double mean = std::numeric_limits<double>::quiet_NaN();
+  double worst = std::numeric_limits<double>::quiet_NaN();
+  /// The worst 1 % of the elements are worse than this (interpolated between elements).
+  double p1 = std::numeric_limits<double>::quiet_NaN();
+  double median = std::numeric_limits<double>::quiet_NaN();
   std::int64_t infinite = 0;  ///< Elements left out because the metric is not finite.
 };
 
@@ -56,7 +59,7 @@ struct ValidityCheck {
   std::string name;  ///< Identifier, e.g. "nonManifoldEdges".
   CheckStatus status = CheckStatus::pass;
   std::int64_t count = 0;              ///< Defects found; 0 unless the status is warn or fail.
-  std::vector<std::int64_t> elements;  ///< At most 100 ids, 0-based: of elements or vertices, as the sentence says.
+  std::vector<std::int64_t> elements;  ///< All ids, 0-based: of elements or vertices, as the sentence says.
   std::string sentence;                ///< For a person; empty when passed.
 };
 
@@ -70,7 +73,8 @@ struct ValidityReport {
 /// "empty", "indexOutOfRange", "nonFiniteCoordinate", "repeatedCorner", "duplicateElements", "orientationConflicts",
 /// "invertedElements" (quads with scaled Jacobian <= 1e-9, triangles without area), "featureSegments" (segments that
 /// are no edge of the mesh) and "nonManifoldEdges" (more than two elements, off the feature segments) fail;
-/// "nonManifoldVertices" (more than one fan, off the feature segments) and "unreferencedVertices" warn.
+/// "nonManifoldVertices" (more than one fan, off the feature segments), "unreferencedVertices", and
+/// "orientationConflicts" on feature segments alone warn.
 /// Elements that fail one of the second to fourth check are left out of the others.
 ValidityReport validateMesh(const QuadMesh& mesh);
 
@@ -121,8 +125,9 @@ struct QualityReport {
   std::int64_t vertices = 0;
   std::int64_t quads = 0;
   std::int64_t triangles = 0;
-  double quadShare = 0.0;              ///< quads / elements.
-  double regularShare = 0.0;           ///< Interior vertices with exactly four elements, all quads / interior vertices.
+  double quadShare = 0.0;  ///< quads / elements; 0 without elements.
+  /// Interior vertices with exactly four elements, all quads / interior vertices. Absent when there are none.
+  std::optional<double> regularShare;
   std::int64_t interiorVertices = 0;   ///< On no boundary or non-manifold edge, with one fan of elements.
   std::int64_t irregularVertices = 0;  ///< Interior vertices that are not regular.
   std::int64_t doublets = 0;           ///< Interior vertices with only two elements.
@@ -141,13 +146,14 @@ struct QualityReport {
   Distribution maxAngle;
   Distribution skewness;
   Distribution warpage;
-  Distribution triangleScaledJacobian;      ///< Over the triangles.
-  double size = 0.0;                        ///< The target length that sizeError and the recalls were measured with.
-  double sizeError = 0.0;                   ///< Mean |log2(l / size)| over edges.
-  std::optional<double> meanDistance;       ///< Of element centres from the reference, weighted by area.
-  std::optional<double> largestDistance;    ///< Of vertices and element centres from the reference.
-  std::optional<double> largestGap;         ///< Of the reference's vertices and triangle centres from the mesh.
-  std::vector<Vec3> missed;                 ///< Such places that are farther from the mesh than 1.5 target lengths.
+  Distribution triangleScaledJacobian;    ///< Over the triangles.
+  double size = 0.0;                      ///< The target length that sizeError and the recalls were measured with.
+  double sizeError = 0.0;                 ///< Mean |log2(l / size)| over edges.
+  std::optional<double> meanDistance;     ///< Of element centres from the reference, weighted by area.
+  std::optional<double> largestDistance;  ///< Of vertices and element centres from the reference.
+  /// Of the reference from the mesh, at some 2000 of its vertices and 2000 of its triangles' centres, evenly spread.
+  std::optional<double> largestGap;
+  std::vector<Vec3> missed;                 ///< Those of these that are farther from the mesh than 1.5 target lengths.
   std::optional<double> sharpRecall;        ///< Share of the reference's sharp edge length that the mesh keeps.
   std::optional<double> boundaryRecall;     ///< The same of its boundary. Absent when the reference has none.
   std::optional<double> nonManifoldRecall;  ///< The same of its non-manifold edges.
@@ -163,9 +169,10 @@ struct QualityOptions {
 
 /// Measures and validates. reference may be null: then there are no fidelity figures and the checks are those of
 /// validateMesh(). With it, defects that the reference has itself are allowed, and there are further checks:
-/// "boundary", "cracks", "tJunctions", "components", "euler", "indexLedger" (whether the ledger closes with the
-/// reference's Euler characteristic), "coverage" (area) and "facesTurnedOver" (against the reference's normals). The
-/// reference may be a soup: it is welded by exact position. Complexity O((n + m) log(n + m)).
+/// "nonManifoldVertices", which fails where the reference has fewer, "boundary", "cracks", "tJunctions", "components",
+/// "euler", "indexLedger" (whether the ledger closes with the reference's Euler characteristic), "coverage" (area) and
+/// "facesTurnedOver" (against the reference's normals). The reference may be a soup: it is welded by exact position.
+/// Complexity O((n + m) log(n + m)).
 QualityReport measureQuality(const QuadMesh& mesh, const TriangleMesh* reference, const QualityOptions& options);
 
 }  // namespace qmcf

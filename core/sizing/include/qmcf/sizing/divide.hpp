@@ -23,7 +23,7 @@ struct DividedEdges {
   std::vector<Vec3> nodes;          ///< Positions, on the edges; B-rep vertices come first, in their order.
   std::vector<double> nodeSize;     ///< Per node: target length.
   std::vector<EdgeDivision> edges;  ///< Per edge of the B-rep.
-  std::int64_t oddFaces = 0;        ///< Faces whose number of boundary edges could not be made even.
+  std::int64_t oddFaces = 0;  ///< Faces with an odd number of boundary edges: they do better so, or can't be even.
 };
 
 /// Divides by the size field: round(integral of ds / h), at least 1 (at least 3 on a closed edge), with nodes at equal

@@ -90,13 +90,12 @@ struct SizeField {
   double chordSize = std::numeric_limits<double>::infinity();  ///< The size that would be, were it the same everywhere.
 };
 
-/// The sizes: `size`, or a length such that the elements of the whole field are about `quads`, within 1.7 times
-/// (with `curvature` 3 times) the
-/// one for a field that is the same everywhere; not above vertexSize; smaller where a face is curved, down to a tenth
-/// of base, where a feature edge turns (at least divisionsPerTurn divisions in a full turn, also in a small closed
-/// edge), and on short edges; not below a tenth of base, except by
-/// the divisions of a small closed edge and by limits; then graded, and levelled where a face is one element wide: the
-/// slope there may be more. Complexity O(n log n). Errors: invalidOption, cancelled.
+/// The sizes: `size`, or a length such that the elements of the whole field are about `quads`. That is at most 1.7
+/// times (with `curvature` 3 times) the length for a field that is the same everywhere. Nowhere above vertexSize.
+/// Smaller on short edges, where a face is curved, and where a feature edge turns: at least divisionsPerTurn divisions
+/// in a full turn, also in a small closed edge. Not below a tenth of base, except by the divisions of a small closed
+/// edge and by limits. Then graded, and levelled where a face is one element wide: the slope there may be more.
+/// Complexity O(n log n). Errors: invalidOption, cancelled.
 Result<SizeField> computeSizeField(const TriangleMesh& mesh, const Brep& brep, const SizingOptions& options,
                                    Progress& progress);
 

@@ -94,7 +94,7 @@ struct BrepOptions {
 /// Cuts the mesh into faces along sharp, boundary, non-manifold and label edges.
 ///
 /// - An edge is sharp from the feature angle on. Chains of sharp edges that end inside a face are continued down to 0.6
-///   of the angle where that leads to another edge; those shorter than 1.2 % of the body that still end inside a face
+///   of the angle where that leads to another edge; those shorter than 0.3 % of the body that still end inside a face
 ///   are dropped. In a body whose sharp edges end loosely all over (scans, sculpted models) only edges of twice the
 ///   angle count, chains and patches must be larger, and zigzag borders have no corners.
 /// - Slivers too thin for a reliable normal take that of a neighbour.
