@@ -181,6 +181,7 @@ Result<CleanupResult> cleanUp(const FaceMesh& mesh, const Patch& patch, const Tr
     work.commit();
   }
   note(TraceKind::untangle);
+  if (!progress.report(Stage::cleanup, 1.0)) return cancelledError();
   const std::int64_t turnedOver = untangle(work, where, options.quadsOnly);
   const std::int64_t cuts = options.quadsOnly ? 0 : cutInverted(work);
   if (cuts > 0) untangle(work, where, options.quadsOnly);
