@@ -85,6 +85,18 @@ std::int32_t RemeshMesh::incomingBoundary(std::int32_t v) const {
   return prev(last);
 }
 
+bool RemeshMesh::hasNeighbors(std::int32_t v, int count) const {
+  const std::int32_t first = outgoing(v);
+  std::int32_t h = first;
+  for (int found = 1; found < count; ++found) {
+    const std::int32_t last = prev(h);
+    h = twin(last);
+    if (h == first) return false;
+    if (h == kNone) return found + 1 >= count;
+  }
+  return true;
+}
+
 bool RemeshMesh::areNeighbors(std::int32_t a, std::int32_t b) const {
   // Around both at a time, until one is done: of the two, one often has few neighbours where the other is the hub of a
   // long fan.
@@ -247,9 +259,7 @@ bool RemeshMesh::canCollapse(std::int32_t h, std::int32_t removed) {
   // An apex inside the surface needs three neighbours afterwards.
   for (const std::int32_t side : {h, g}) {
     if (side == kNone || onBoundary(apex(side))) continue;
-    int valence = 0;
-    forEachNeighbor(apex(side), [&valence](std::int32_t) { ++valence; });
-    if (valence <= 3) return false;
+    if (!hasNeighbors(apex(side), 4)) return false;
   }
   return true;
 }

@@ -82,6 +82,8 @@ class RemeshMesh {
     }
   }
 
+  /// Whether v has so many neighbours; no more than these are counted.
+  [[nodiscard]] bool hasNeighbors(std::int32_t v, int count) const;
   [[nodiscard]] bool areNeighbors(std::int32_t a, std::int32_t b) const;
 
   /// Puts a new vertex on an edge; h keeps its origin and then ends at the new vertex. Attributes are left at defaults.
