@@ -335,7 +335,9 @@ Result<Brep> recoverBrep(const TriangleMesh& mesh, const BrepOptions& options, P
   for (std::size_t f = 0; f < brep.faces.size(); ++f) {
     const double done = static_cast<double>(f) / static_cast<double>(brep.faces.size());
     if (!progress.report(Stage::topology, 0.8 + 0.2 * done)) return cancelledError();
-    brep.cuts.push_back(detail::cutFace(mesh, brep, static_cast<std::int32_t>(f)));
+    auto cut = detail::cutFace(mesh, brep, static_cast<std::int32_t>(f));
+    if (!cut) return cut.error();
+    brep.cuts.push_back(std::move(cut).value());
   }
   return brep;
 }

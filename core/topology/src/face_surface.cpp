@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
+#include <string>
 #include <utility>
 
 #include "triangle_edges.hpp"
@@ -86,9 +87,14 @@ std::vector<std::vector<HalfedgeId>> traceLoops(const detail::TriangleEdges& edg
   return loops;
 }
 
+/// A broken invariant: what comes next would look for what is not there.
+Error uncutError(std::int32_t face) {
+  return {ErrorCode::internal, "Face " + std::to_string(face) + " could not be cut out along its edges.", {face}};
+}
+
 }  // namespace
 
-FaceSurface detail::cutFace(const TriangleMesh& mesh, const Brep& brep, std::int32_t face) {
+Result<FaceSurface> detail::cutFace(const TriangleMesh& mesh, const Brep& brep, std::int32_t face) {
   const BrepFace& source = brep.faces[static_cast<std::size_t>(face)];
   std::vector<std::int32_t> points;
   const detail::Triangles local = localTriangles(mesh, source, points);
@@ -118,13 +124,15 @@ FaceSurface detail::cutFace(const TriangleMesh& mesh, const Brep& brep, std::int
   for (const HalfedgeId h : edges.halfedges()) triangles[h.index() / 3][h.index() % 3] = fans.ofCorner[h];
   Result<Surface> built = Surface::build(std::move(positions), triangles);
   assert(built.ok());
-  if (!built) return {};
+  if (!built) return uncutError(face);
   result.surface = std::move(built).value();
   result.triangleOrigin = source.triangles;
 
   result.edge.resize(edges.halfedgeCount(), kNone);
   for (const HalfedgeId h : edges.halfedges()) result.edge[h] = brepEdge[edges.edge(h)];
   result.loops = traceLoops(edges, fans, cut, points, cornerPoints(brep, source));
+  assert(result.loops.size() == source.loops.size());
+  if (result.loops.size() != source.loops.size()) return uncutError(face);
   return result;
 }
 

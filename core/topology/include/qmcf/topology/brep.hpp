@@ -105,7 +105,7 @@ struct BrepOptions {
 /// - Edges of Moebius-like pieces that repair() could not orient are non-manifold edges with two triangles.
 ///
 /// \pre mesh comes from repair(): no degenerate triangle, no single non-manifold edge inside a sheet.
-/// Complexity O(n log n). Errors: cancelled, noSurface.
+/// Complexity O(n log n). Errors: cancelled, noSurface, internal.
 Result<Brep> recoverBrep(const TriangleMesh& mesh, const BrepOptions& options, Progress& progress);
 
 }  // namespace qmcf
