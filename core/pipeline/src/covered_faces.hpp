@@ -4,6 +4,8 @@
 #include <vector>
 
 #include "part.hpp"
+#include "qmcf/base/progress.hpp"
+#include "qmcf/base/result.hpp"
 
 namespace qmcf {
 
@@ -15,7 +17,7 @@ struct CoveredFaces {
 
 /// Faces between the same edges as another one and nowhere farther from it than `distance`: two layers that elements
 /// of a larger size can't tell apart, so that only one of them can be meshed: the one whose orientation agrees better
-/// with the faces around.
-CoveredFaces coveredFaces(const Part& part, double distance);
+/// with the faces around. Errors: cancelled.
+Result<CoveredFaces> coveredFaces(const Part& part, double distance, Progress& progress);
 
 }  // namespace qmcf

@@ -42,9 +42,10 @@ std::optional<Error> meshFaces(const Part& part, Trial& trial, bool settles, Pro
 
 Result<Trial> makeTrial(const Part& part, const RunOptions& options, PreparedFaces prepared, Progress& progress) {
   // Elements that are cut up have a vertex of their own each, so that those of two layers always are told apart.
-  CoveredFaces covered = options.leftovers == Leftovers::cut ? noneCovered(part.brep)
-                                                             : coveredFaces(part, kTellApart * prepared.size.base);
-  Trial trial{std::move(prepared), std::move(covered), std::vector<MeshedFace>(part.brep.faces.size())};
+  auto covered = options.leftovers == Leftovers::cut ? noneCovered(part.brep)
+                                                     : coveredFaces(part, kTellApart * prepared.size.base, progress);
+  if (!covered) return covered.error();
+  Trial trial{std::move(prepared), std::move(covered).value(), std::vector<MeshedFace>(part.brep.faces.size())};
   const bool settles = settlesWithMeshes(part, trial.prepared);
   if (const auto error = meshFaces(part, trial, settles, progress)) return *error;
   return trial;

@@ -304,6 +304,47 @@ TEST(MeshSurface, MeshesOneOfTwoLayersThatElementsCanNotTellApart) {
   for (const FaceReport& face : result.faces) EXPECT_EQ(face.method == "omitted", !face.reason.empty());
 }
 
+/// A plate of cells x cells squares, all but the outermost with a second layer hardly above them. One of the two faces
+/// down: by turns the lower one and the upper one.
+TriangleMesh plateOfPillows(int cells) {
+  TriangleMesh plate;
+  const auto vertexAt = [cells](int i, int j) { return static_cast<std::int32_t>(i * (cells + 1) + j); };
+  for (int i = 0; i <= cells; ++i) {
+    for (int j = 0; j <= cells; ++j) plate.positions.push_back({i / 10.0, j / 10.0, 0.0});
+  }
+  const auto isInside = [cells](int i) { return i > 0 && i + 1 < cells; };
+  for (const bool isUpper : {false, true}) {
+    for (int i = 0; i < cells; ++i) {
+      for (int j = 0; j < cells; ++j) {
+        const bool hasTwo = isInside(i) && isInside(j);
+        if (isUpper && !hasTwo) continue;
+        const std::array<std::int32_t, 4> cell{vertexAt(i, j), vertexAt(i + 1, j), vertexAt(i + 1, j + 1),
+                                               vertexAt(i, j + 1)};
+        const bool facesDown = hasTwo && ((i + j) % 2 == 0) != isUpper;
+        const auto middle = static_cast<std::int32_t>(plate.positions.size());
+        plate.positions.push_back({(i + 0.5) / 10.0, (j + 0.5) / 10.0, isUpper ? 3e-3 : 0.0});
+        for (std::size_t k = 0; k < 4; ++k) {
+          plate.triangles.push_back({cell[k], cell[(k + 1) % 4], middle});
+          if (facesDown) std::swap(plate.triangles.back()[0], plate.triangles.back()[1]);
+        }
+      }
+    }
+  }
+  return plate;
+}
+
+TEST(MeshSurface, TurnsAsManyLayersAsDisagreeWithTheFacesAround) {
+  // Where there are two layers all around, neither of them agrees better than the other.
+  const MeshResult result = mesh(plateOfPillows(11), 500);
+  for (const ValidityCheck& check : result.quality.checks) {
+    // Most of the part has one layer less.
+    EXPECT_EQ(check.status == CheckStatus::fail, check.name == "coverage") << check.name << ": " << check.sentence;
+  }
+  const auto omitted = std::count_if(result.faces.begin(), result.faces.end(),
+                                     [](const FaceReport& face) { return face.method == "omitted"; });
+  EXPECT_EQ(omitted, 81);
+}
+
 TEST(MeshSurface, PutsNodesAcrossFromEachOtherOnBothSidesOfACrack) {
   // The crack is wider than what repair joins.
   for (const std::int64_t quads : {50, 100, 200, 400}) expectGood(mesh(parts::crackedSquare(6e-6), quads));
