@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <utility>
 
 namespace qmcf::detail {
 namespace {
@@ -21,49 +22,64 @@ EditSoup::EditSoup(RepairState& state)
   }
 }
 
+const std::vector<std::int32_t>& EditSoup::around(std::int32_t v) const {
+  looked_ += around_[at(v)].size();
+  return around_[at(v)];
+}
+
+std::array<std::int32_t, 2> EditSoup::fewerFirst(std::int32_t a, std::int32_t b) const {
+  return around_[at(a)].size() <= around_[at(b)].size() ? std::array{a, b} : std::array{b, a};
+}
+
+bool EditSoup::hasBoth(std::int32_t triangle, std::int32_t a, std::int32_t b) const {
+  const auto& corners = state_.mesh.triangles[at(triangle)];
+  return alive(triangle) && has(corners, a) && has(corners, b);
+}
+
+bool EditSoup::areConnected(std::int32_t a, std::int32_t b) const {
+  const std::vector<std::int32_t>& near = around(fewerFirst(a, b)[0]);
+  return std::any_of(near.begin(), near.end(), [&](std::int32_t t) { return hasBoth(t, a, b); });
+}
+
 std::vector<std::int32_t> EditSoup::trianglesAt(std::int32_t a, std::int32_t b) const {
   std::vector<std::int32_t> found;
-  for (const std::int32_t t : around_[at(a)]) {
-    const auto& corners = state_.mesh.triangles[at(t)];
-    if (alive(t) && has(corners, a) && has(corners, b)) found.push_back(t);
-  }
+  const std::vector<std::int32_t>& near = around(fewerFirst(a, b)[0]);
+  std::copy_if(near.begin(), near.end(), std::back_inserter(found), [&](std::int32_t t) { return hasBoth(t, a, b); });
   std::sort(found.begin(), found.end());
   found.erase(std::unique(found.begin(), found.end()), found.end());
   return found;
 }
 
 bool EditSoup::mayMerge(std::int32_t a, std::int32_t b) const {
-  const auto neighbours = [&](std::int32_t v) {
-    std::vector<std::int32_t> found;
-    for (const std::int32_t t : around_[at(v)]) {
-      const auto& corners = state_.mesh.triangles[at(t)];
-      if (alive(t) && has(corners, v)) found.insert(found.end(), corners.begin(), corners.end());
-    }
-    std::sort(found.begin(), found.end());
-    found.erase(std::unique(found.begin(), found.end()), found.end());
-    return found;
-  };
-  const std::vector<std::int32_t> ofA = neighbours(a);
-  const std::vector<std::int32_t> ofB = neighbours(b);
-  std::vector<std::int32_t> common;
-  std::set_intersection(ofA.begin(), ofA.end(), ofB.begin(), ofB.end(), std::back_inserter(common));
-  // a and b themselves are among them.
-  return common.size() == trianglesAt(a, b).size() + 2;
+  const auto [fewer, other] = fewerFirst(a, b);
+  std::vector<std::int32_t> neighbours;
+  for (const std::int32_t t : around(fewer)) {
+    const auto& corners = state_.mesh.triangles[at(t)];
+    if (alive(t) && has(corners, fewer)) neighbours.insert(neighbours.end(), corners.begin(), corners.end());
+  }
+  std::sort(neighbours.begin(), neighbours.end());
+  neighbours.erase(std::unique(neighbours.begin(), neighbours.end()), neighbours.end());
+  const std::int32_t apart = other;
+  const auto common = std::count_if(neighbours.begin(), neighbours.end(),
+                                    [&](std::int32_t v) { return v != a && v != b && areConnected(v, apart); });
+  return static_cast<std::size_t>(common) == trianglesAt(a, b).size();
 }
 
-void EditSoup::merge(std::int32_t kept, std::int32_t gone) {
-  const std::vector<std::int32_t> moved = std::move(around_[at(gone)]);
-  around_[at(gone)].clear();
-  for (const std::int32_t t : moved) {
+std::vector<std::int32_t> EditSoup::merge(std::int32_t kept, std::int32_t gone) {
+  looked_ += around_[at(gone)].size();
+  std::vector<std::int32_t> moved = std::exchange(around_[at(gone)], {});
+  std::erase_if(moved, [&](std::int32_t t) {
     auto& corners = state_.mesh.triangles[at(t)];
-    if (!alive(t) || !has(corners, gone)) continue;
+    if (!alive(t) || !has(corners, gone)) return true;
     if (has(corners, kept)) {
       kill(t);
-      continue;
+      return true;
     }
     std::replace(corners.begin(), corners.end(), gone, kept);
-    around_[at(kept)].push_back(t);
-  }
+    return false;
+  });
+  around_[at(kept)].insert(around_[at(kept)].end(), moved.begin(), moved.end());
+  return moved;
 }
 
 std::vector<std::int32_t> EditSoup::splitEdge(std::int32_t a, std::int32_t b, std::int32_t v) {

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <map>
 #include <queue>
 
 #include "edit_soup.hpp"
@@ -66,14 +67,15 @@ class Flattener {
     addItem(state_, std::move(item));
     if (found.empty() || !state_.modify) return;
     EditSoup soup(state_);
-    // In steps and triangles changed: around an edge with many triangles, each split doubles what the next one splits.
-    std::size_t budget = 50 * found.size() + 1000;
+    // Around an edge with many triangles, each split doubles what the next one splits.
+    std::size_t budget = kStep * (50 * found.size() + 1000);
     for (const Candidate& candidate : found) queue_.push(candidate);
     while (!queue_.empty() && budget > 0) {
       const std::int32_t t = queue_.top().triangle;
       queue_.pop();
-      const std::size_t cost = soup.alive(t) ? 1 + flatten(soup, t) : 1;
-      budget -= std::min(cost, budget);
+      const std::size_t looked = soup.looked();
+      const std::size_t made = soup.alive(t) ? flatten(soup, t) : 0;
+      budget -= std::min(kStep * (1 + made) + soup.looked() - looked, budget);
     }
     // What is left would break the later stages if it had no area at all.
     for (std::size_t t = 0; t < state_.mesh.triangles.size(); ++t) {
@@ -84,10 +86,23 @@ class Flattener {
   }
 
  private:
+  /// What a step counts, and a triangle that is split or made, in triangles looked at.
+  static constexpr std::size_t kStep = 512;
+
   void push(const EditSoup& soup, std::int32_t t) {
     if (!soup.alive(t)) return;
     const Shape shape = shapeOf(state_.mesh, t);
     if (shape.height <= height_) queue_.push({shape.longest, t});
+  }
+
+  /// What was refused at a vertex may be possible now that others are there.
+  void retryAt(const EditSoup& soup, std::int32_t vertex) {
+    const auto [first, last] = refused_.equal_range(vertex);
+    for (auto it = first; it != last; ++it) {
+      const auto& corners = state_.mesh.triangles[at(it->second)];
+      if (std::find(corners.begin(), corners.end(), vertex) != corners.end()) push(soup, it->second);
+    }
+    refused_.erase(first, last);
   }
 
   /// Returns how many triangles were split or made.
@@ -98,9 +113,13 @@ class Flattener {
     if (shape.shortest <= height_) {
       const std::int32_t a = corners[shape.shortestEdge];
       const std::int32_t b = corners[(shape.shortestEdge + 1) % 3];
-      if (keepsTopology_ && !soup.mayMerge(a, b)) return 0;
-      soup.merge(std::min(a, b), std::max(a, b));
-      for (const std::int32_t moved : soup.around(std::min(a, b))) push(soup, moved);
+      if (keepsTopology_ && !soup.mayMerge(a, b)) {
+        for (const std::int32_t corner : corners) refused_.emplace(corner, t);
+        return 0;
+      }
+      const std::int32_t kept = std::min(a, b);
+      for (const std::int32_t moved : soup.merge(kept, std::max(a, b))) push(soup, moved);
+      retryAt(soup, kept);
       return 0;
     }
     const std::int32_t a = corners[shape.longestEdge];
@@ -117,6 +136,7 @@ class Flattener {
   double height_;
   bool keepsTopology_;
   std::priority_queue<Candidate> queue_;
+  std::multimap<std::int32_t, std::int32_t> refused_;  ///< By the corners: triangles whose vertices could not merge.
 };
 
 }  // namespace
