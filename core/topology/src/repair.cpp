@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <numeric>
 #include <string>
@@ -147,6 +148,23 @@ Result<Done> checkInput(const TriangleMesh& input) {
   return Done{};
 }
 
+/// The median of the triangles' longest sides.
+double medianSide(const TriangleMesh& mesh) {
+  std::vector<double> longest;
+  longest.reserve(mesh.triangles.size());
+  for (const auto& corners : mesh.triangles) {
+    const auto p = [&](std::size_t i) -> const Vec3& { return mesh.positions[static_cast<std::size_t>(corners[i])]; };
+    longest.push_back(std::fmax(distance(p(0), p(1)), std::fmax(distance(p(1), p(2)), distance(p(2), p(0)))));
+  }
+  const auto middle = longest.begin() + static_cast<std::ptrdiff_t>(longest.size() / 2);
+  std::nth_element(longest.begin(), middle, longest.end());
+  return *middle;
+}
+
+/// A part is at most so many triangles across: a piece of it that lies farther away than that says nothing about which
+/// of its details are too small to tell.
+constexpr double kMostSides = 1e5;
+
 void measure(RepairState& state) {
   const TriangleMesh& mesh = state.mesh;
   BoundingBox box;
@@ -154,11 +172,11 @@ void measure(RepairState& state) {
     for (const std::int32_t v : corners) box.include(mesh.positions[static_cast<std::size_t>(v)]);
   }
   state.diagonal = box.diagonal();
-  state.precision =
-      std::fmax(1e-9 * state.diagonal, 4.0 * std::numeric_limits<double>::epsilon() * box.largestCoordinate());
+  const double extent = std::fmin(state.diagonal, kMostSides * medianSide(mesh));
+  state.precision = std::fmax(1e-9 * extent, 4.0 * std::numeric_limits<double>::epsilon() * box.largestCoordinate());
   // Coordinates far from the origin are coarse, but beyond the cap closing gaps would eat details.
   const double resolution = std::fmin(4.0 * coordinateResolution(mesh.positions, box), 1e-5 * state.diagonal);
-  state.tolerance = std::fmax(std::fmax(1e-6 * state.diagonal, resolution), state.precision);
+  state.tolerance = std::fmax(std::fmax(1e-6 * extent, resolution), state.precision);
 }
 
 /// Closes gaps and what follows from that: joining what was apart makes slivers and puts triangles on the same

@@ -9,6 +9,7 @@
 #include <map>
 #include <set>
 
+#include "qmcf/base/math.hpp"
 #include "qmcf/base/random.hpp"
 #include "topology/shapes.hpp"
 
@@ -225,6 +226,35 @@ TEST(Repair, LeavesWhatIsFurtherApart) {
   const RepairedMesh result = run(apart);
   EXPECT_TRUE(result.items.empty());
   EXPECT_EQ(shapes::checkedBrep(result.mesh).bodies.size(), 2U);
+}
+
+TEST(Repair, AStrayTriangleFarAwayDoesNotMakeDetailsGaps) {
+  TriangleMesh part = shapes::square(20);
+  const auto first = static_cast<std::int32_t>(part.positions.size());
+  part.positions.insert(part.positions.end(), {{1e6, 1e6, 0.0}, {1e6 + 1.0, 1e6, 0.0}, {1e6, 1e6 + 1.0, 0.0}});
+  part.triangles.push_back({first, first + 1, first + 2});
+  const RepairedMesh result = run(part);
+  EXPECT_TRUE(result.items.empty());
+  EXPECT_EQ(result.mesh.triangles.size(), part.triangles.size());
+}
+
+TEST(Repair, MergesCrowdsOfVerticesToOnesThatAreApart) {
+  // Triangles with a corner each in a crowd far smaller than the tolerance; the other corners are nowhere near.
+  constexpr double kCrowd = 1e-7;
+  TriangleMesh part;
+  Random random(7);
+  for (int i = 0; i < 400; ++i) {
+    const auto first = static_cast<std::int32_t>(part.positions.size());
+    part.positions.push_back({kCrowd * random.uniform(), kCrowd * random.uniform(), kCrowd * random.uniform()});
+    const auto out = math::unitComplex(2.0 * math::kPi * i / 400);
+    const auto next = math::unitComplex(2.0 * math::kPi * (i + 0.5) / 400);
+    part.positions.push_back({out.real(), out.imag(), 0.0});
+    part.positions.push_back({next.real(), next.imag(), 0.0});
+    part.triangles.push_back({first, first + 1, first + 2});
+  }
+  const RepairedMesh result = run(part);
+  EXPECT_EQ(countOf(result, "nearlyEqualVertices"), 399);
+  EXPECT_EQ(result.mesh.positions.size(), 801U);
 }
 
 TEST(Repair, SplitsEdgesAtTJunctions) {

@@ -40,8 +40,9 @@ struct RepairedMesh {
 ///   that hang on a closed surface go: zeroThicknessFins;
 /// - triangles without area removed such that no crack opens: zeroAreaTriangles;
 /// - boundary vertices within the tolerance merged: nearlyEqualVertices; boundary edges split at boundary vertices that
-///   lie on them: tJunctions. Tolerance: 1e-6 of the bounding box' diagonal, or 4 units of the last place of
-///   coordinates in single precision when these are larger;
+///   lie on them: tJunctions. Tolerance: 1e-6 of the bounding box' diagonal, but at most a tenth of the
+///   median of the triangles' longest sides, or 4 units of the last place of coordinates in single precision when these
+///   are larger;
 /// - triangles lower than the tolerance removed likewise: sliverTriangles;
 /// - orientation made consistent across two-sided edges: misorientedTriangles. Where that was needed, closed components
 ///   that are not the wall of a cavity are turned outwards, elsewhere they are reported only: inwardShells; where a
