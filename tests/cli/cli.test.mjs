@@ -1,7 +1,7 @@
 // The command line program as a user meets it: exit statuses, messages, files. QMCF is the program's path.
 import assert from 'node:assert/strict';
 import { spawn, spawnSync } from 'node:child_process';
-import { existsSync, mkdtempSync, readdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { existsSync, mkdtempSync, readdirSync, readFileSync, rmSync, truncateSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join, resolve } from 'node:path';
 import { after, before, test } from 'node:test';
@@ -274,6 +274,15 @@ test('strokes turn the field', () => {
   const drawn = constrained.flatMap((pin, v) => (pin === 5 ? [v] : []));
   assert.ok(drawn.length >= 3);
   for (const v of drawn) assert.ok(Math.abs(Math.abs(directions[3 * v]) - Math.SQRT1_2) < 1e-9);
+});
+
+test('a file that is too large to be read is refused before it is', () => {
+  put('large.stl', '');
+  truncateSync(join(folder, 'large.stl'), 3 * 2 ** 30);
+  const run = qmcf('info', 'large.stl');
+  assert.equal(run.status, 3, run.stderr);
+  assert.match(run.stderr, /2 GiB/);
+  rmSync(join(folder, 'large.stl'));
 });
 
 test('files that hold no strokes are refused', () => {

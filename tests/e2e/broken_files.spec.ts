@@ -27,6 +27,19 @@ for (const [name, content] of Object.entries(files)) {
   });
 }
 
+test('a long file name stays within the panel', async ({ page }) => {
+  await page.goto('./');
+  const app = new App(page);
+  await app.openSample('cylinder.obj');
+  const name = `${'no_blank_to_break_at_'.repeat(4)}.obj`;
+  await app.open({ name, mimeType: 'text/plain', buffer: Buffer.from('f 1 2 3\n') });
+  await expect(app.status).toContainText(name);
+  for (const text of [app.status, app.alert]) {
+    const [needed, room] = await text.evaluate((element) => [element.scrollWidth, element.clientWidth]);
+    expect(needed).toBeLessThanOrEqual(room!);
+  }
+});
+
 test('the part that was open stays open', async ({ page }, info) => {
   await page.goto('./');
   const app = new App(page);

@@ -47,6 +47,17 @@ test('another part can be opened while one is meshed', async ({ page }) => {
   await app.mesh(300);
 });
 
+test('a sample that does not arrive can be given up', async ({ page }) => {
+  await page.route('**/*cylinder*.obj', () => {});
+  await page.goto('./');
+  const app = new App(page);
+  await page.getByRole('button', { name: 'Cylinder' }).first().click();
+  await app.cancel.click();
+  await expect(app.cancel).toBeHidden({ timeout: 10_000 });
+  await expect(app.alert).toBeEmpty();
+  await app.openSample('torus.obj');
+});
+
 test('a field that is cancelled is no longer asked for', async ({ page }) => {
   await page.goto('./');
   const app = new App(page);

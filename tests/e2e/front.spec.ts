@@ -25,6 +25,10 @@ test('the front is recorded when asked for, and can be stepped through and playe
   const grown = player.locator('.grown');
   await expect(step).toHaveValue('0');
   await expect(grown).toHaveText('0 elements');
+  const scene = () => app.canvas.screenshot({ style: '#app > :not(canvas) { visibility: hidden !important }' });
+  // Where the camera looks settles when the player has its room.
+  let start = await scene();
+  await expect.poll(async () => start.equals((start = await scene()))).toBe(true);
   const empty = await app.picture();
   await player.getByRole('button', { name: 'One step forward' }).click();
   await expect(step).toHaveValue('1');
@@ -35,6 +39,8 @@ test('the front is recorded when asked for, and can be stepped through and playe
   await player.getByRole('button', { name: 'One step back' }).click();
   await player.getByRole('button', { name: 'One step back' }).click();
   await expect(grown).toHaveText('0 elements');
+  // The front before the first step is there from the beginning.
+  await expect.poll(async () => (await scene()).equals(start)).toBe(true);
   await player.getByRole('button', { name: 'Next event' }).click();
   expect(Number(await step.inputValue())).toBeGreaterThan(0);
 

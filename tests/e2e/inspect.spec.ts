@@ -57,6 +57,52 @@ test('the faces and edges of a cylinder have its sizes', async ({ page }) => {
   await expect(page.getByRole('group', { name: 'Chosen' })).toBeHidden();
 });
 
+test('a mesh keeps the faces and edges that it was made of', async ({ page }) => {
+  await page.goto('./');
+  const app = new App(page);
+  await app.openSample('cylinder.obj');
+  await app.mesh(300);
+  const [number, card] = [page.getByLabel('Its number'), page.getByRole('group', { name: 'Chosen' })];
+  const angle = page.getByLabel('Feature angle');
+  await number.fill('2');
+  await expect(card).toContainText('Face 2');
+  await page.getByText('Features and directions').click();
+  await angle.fill('120');
+  await expect(app.status).toHaveText('Edges found again.');
+  await expect(page.getByText('The settings have changed since this mesh was made.')).toBeVisible();
+  // The mesh is still one of three faces, the part has one.
+  await expect(card).toContainText('Face 2');
+  expect(await chosen(app, 'Meshed')).toMatch(/quads/);
+  await expect(number).toHaveAttribute('placeholder', 'number, 0 to 2');
+  await page.getByRole('button', { name: 'Part', exact: true }).click();
+  await expect(card).toBeHidden();
+  await expect(number).toHaveAttribute('placeholder', 'number, 0 to 0');
+
+  // A mesh that is asked for at once, before the part at the new angle is there.
+  await angle.fill('30');
+  await app.generate.click();
+  await expect(app.status).toHaveText(/ quads? .*in .* s\.$/);
+  await expect(number).toHaveAttribute('placeholder', 'number, 0 to 2');
+  await page.getByRole('button', { name: 'Part', exact: true }).click();
+  await expect(number).toHaveAttribute('placeholder', 'number, 0 to 2');
+});
+
+test('a number that can not be is told to be wrong, until it is right', async ({ page }) => {
+  await page.goto('./');
+  const app = new App(page);
+  await app.openSample('cylinder.obj');
+  await page.getByText('Features and directions').click();
+  for (const [input, wrong, right] of [
+    [page.getByLabel('Feature angle'), '200', '40'],
+    [page.getByLabel('Its number'), '3', '2'],
+  ] as const) {
+    await input.fill(wrong);
+    await expect(input).toHaveAttribute('aria-invalid', 'true');
+    await input.fill(right);
+    await expect(input).not.toHaveAttribute('aria-invalid');
+  }
+});
+
 test('every repair is listed with its count, as by the command line', async ({ page }, info) => {
   const path = info.outputPath('dirty.obj');
   const points = '0 0 0|1 0 0|1 1 0|0 1 0|0 0 0|2 0 0|2 1 0'.split('|').map((p) => `v ${p}`);

@@ -1,7 +1,7 @@
 // The whole way through the page: open, look, mesh, download; and the file that comes out is right.
 import { readFileSync } from 'node:fs';
 import { expect, test } from '@playwright/test';
-import { App, native, sample } from './page.js';
+import { App, holdWorker, native, sample } from './page.js';
 
 test('a part becomes a valid mesh, the same as from the command line', async ({ page }, info) => {
   const errors: string[] = [];
@@ -76,6 +76,26 @@ test('the feature angle decides which edges there are', async ({ page }) => {
   await page.getByText('Features and directions').click();
   await page.getByLabel('Feature angle').fill('120');
   await expect(page.getByRole('list', { name: 'Legend' })).toBeHidden();
+});
+
+test('what is changed while another part opens stays changed', async ({ page }) => {
+  const worker = await holdWorker(page);
+  await page.goto('./');
+  const app = new App(page);
+  await app.openSample('cylinder.obj');
+  await page.getByText('Features and directions').click();
+  await worker.hold();
+  await app.open(sample('capsule.obj'));
+  await expect(app.cancel).toBeVisible();
+  await page.getByLabel('Quadrilaterals only').check();
+  await page.getByLabel('Gradation').fill('0.5');
+  await app.count.fill('700');
+  await worker.release();
+  await expect(app.status).toHaveText('capsule.obj is open.');
+  await expect(page.getByLabel('Quadrilaterals only')).toBeChecked();
+  await expect(page.getByLabel('Gradation')).toHaveValue('0.5');
+  await app.count.blur();
+  await expect(app.count).toHaveValue('700');
 });
 
 test('the less the size may grow, the more elements there are', async ({ page }) => {

@@ -13,6 +13,28 @@ export function native(...args: string[]): { status: number | null; stdout: stri
   return spawnSync(`${root}/build/native/bin/qmcf`, args, { encoding: 'utf8' });
 }
 
+/** Keeps what the page sends to its worker back, from hold() to release(). To be called before the page is loaded. */
+export async function holdWorker(page: Page): Promise<{ hold(): Promise<void>; release(): Promise<void> }> {
+  await page.addInitScript(() => {
+    const scope = globalThis as typeof globalThis & { held?: (() => void)[] | undefined };
+    const post = Worker.prototype.postMessage as (...args: unknown[]) => void;
+    Worker.prototype.postMessage = function (this: Worker, ...args: unknown[]) {
+      const send = () => post.apply(this, args);
+      return scope.held ? void scope.held.push(send) : send();
+    };
+  });
+  type Scope = typeof globalThis & { held?: (() => void)[] | undefined };
+  return {
+    hold: () => page.evaluate(() => void ((globalThis as Scope).held = [])),
+    release: () =>
+      page.evaluate(() => {
+        const { held = [] } = globalThis as Scope;
+        (globalThis as Scope).held = undefined;
+        held.forEach((send) => send());
+      }),
+  };
+}
+
 /** The page, by what its controls are called. */
 export class App {
   readonly status: Locator;

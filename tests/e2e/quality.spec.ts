@@ -53,6 +53,12 @@ test('the histogram counts every element, and triangles are marked', async ({ pa
   }
 });
 
+test('what was not measured is a dash, not a number', async () => {
+  const format = await import('../../web/src/format.js');
+  expect([format.percent(null), format.figure(null), format.percent(undefined)]).toEqual(['–', '–', '–']);
+  expect([format.percent(0), format.figure(0)]).toEqual(['0.0 %', '0.000']);
+});
+
 test('the original Q-Morph can be compared with', async ({ page }, info) => {
   await page.goto('./');
   const app = new App(page);

@@ -1,10 +1,11 @@
-// The queue in front of the worker, with a worker of the test's own: what can't be provoked with the real one.
+// The queue in front of the worker and the worker's own end of it: what can't be provoked with the real ones together.
 import assert from 'node:assert/strict';
 import { join } from 'node:path';
 import { test } from 'node:test';
 import { installed } from './packed.mjs';
 
 const { Line } = await import(join(installed, 'dist/line.js'));
+const { serve } = await import(join(installed, 'dist/serve.js'));
 
 /** A platform whose workers do what the test says. */
 function fakePlatform(sharedMemory) {
@@ -100,3 +101,38 @@ test('a worker that does not notice the flag is replaced', async () => {
   next.events.onMessage({ kind: 'done', id: next.lastId(), value: 'again' });
   assert.equal(await second.result, 'again');
 });
+
+test('a run that can not be sent fails, and the ones behind it go on', async () => {
+  const platform = fakePlatform(true);
+  const line = new Line(platform, {});
+  const [thread] = platform.threads;
+  const post = thread.post;
+  thread.post = () => {
+    thread.post = post;
+    throw new Error('not cloneable');
+  };
+  const [first, second] = [start(line), start(line)];
+  assert.equal(await code(first.result), 'malformedInput');
+  thread.events.onMessage({ kind: 'done', id: thread.lastId(), value: 7 });
+  assert.equal(await second.result, 7);
+});
+
+for (const [error, outOfMemory] of [
+  [new RangeError('WebAssembly.instantiate(): Out of memory: Cannot allocate Wasm memory for new instance'), true],
+  [new RangeError('could not allocate memory'), true],
+  [new WebAssembly.LinkError('memory import has no maximum limit'), false],
+]) {
+  test(`an instance that can not be made is told: ${error.message}`, async (context) => {
+    context.mock.method(WebAssembly, 'instantiate', () => Promise.reject(error));
+    const posted = await new Promise((resolve) =>
+      serve({
+        post: resolve,
+        onMessage: (handler) => {
+          handler({ kind: 'start', module: {} });
+          handler({ kind: 'run', id: 3, task: { name: 'inspect', input: {}, options: {} } });
+        },
+      }),
+    );
+    assert.deepEqual(posted, { kind: 'crashed', id: 3, outOfMemory, message: error.message });
+  });
+}

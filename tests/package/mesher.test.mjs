@@ -2,6 +2,7 @@
 import assert from 'node:assert/strict';
 import { readFileSync, writeFileSync } from 'node:fs';
 import { after, before, test } from 'node:test';
+import { pathToFileURL } from 'node:url';
 import { inProject, native, qmcf, root, sample } from './packed.mjs';
 
 const { createMesher, outputFormats, QmcfError } = qmcf;
@@ -286,6 +287,40 @@ test('what is no model at all is refused', async () => {
   await assert.rejects(mesher.mesh(undefined), withCode('malformedInput'));
   const uneven = { positions: new Float64Array(8), triangles: new Uint32Array(3) };
   await assert.rejects(mesher.mesh(uneven), withCode('malformedInput'));
+});
+
+test('a buffer that was given away before is told as such', async () => {
+  const detached = (error) => withCode('malformedInput')(error) && /transferInput/.test(error.message);
+  for (const transferInput of [true, false]) {
+    const given = new Uint8Array(sample('cylinder.obj'));
+    await mesher.inspect(given, {}, { transferInput: true });
+    await assert.rejects(mesher.inspect(given, {}, { transferInput }), detached);
+    await assert.rejects(mesher.inspect(given.buffer, {}, { transferInput }), detached);
+  }
+  // Given twice before either is sent: the second one waits in the queue for what is gone by then.
+  const before = mesher.inspect(sample('torus.obj'));
+  const twice = new Uint8Array(sample('cylinder.obj'));
+  const [one, two] = [1, 2].map(() => mesher.inspect(twice, {}, { transferInput: true }));
+  await assert.rejects(two, detached);
+  assert.equal((await one).faceNames.length, 3);
+  await before;
+});
+
+test('options that can not be cloned are refused by name, and the next run works', async () => {
+  const strokes = new Proxy([{ from: [0, 0, 0], to: [1, 0, 0] }], {});
+  for (const options of [{ strokes }, { strokes: () => {} }]) {
+    const run = mesher.mesh(sample('cylinder.obj'), options);
+    await assert.rejects(run, (error) => withCode('invalidOption')(error) && error.message.includes('strokes'));
+  }
+  assert.equal((await mesher.inspect(sample('cylinder.obj'))).faceNames.length, 3);
+});
+
+test('the WebAssembly may come from a path, a file address or a data address', async () => {
+  const path = inProject('node_modules/qmcf/dist/qmcf.wasm');
+  const data = `data:application/wasm;base64,${readFileSync(path, 'base64')}`;
+  for (const wasm of [path, pathToFileURL(path).href, pathToFileURL(path), data, new URL(data)]) {
+    (await createMesher({ wasm })).dispose();
+  }
 });
 
 test('WebAssembly that can not be loaded is told', async () => {

@@ -1,4 +1,6 @@
+import { detachedError, isDetached } from './detached.js';
 import { cancelledError, QmcfError } from './errors.js';
+import { messageOf } from './load.js';
 import type { FromWorker, Task, ToWorker } from './protocol.js';
 import type { ProgressReport } from './types.js';
 
@@ -106,14 +108,27 @@ export class Line {
   }
 
   private next(): void {
-    const run = this.current ? undefined : this.waiting.shift();
-    if (!run) {
+    while (!this.current && this.waiting.length > 0) {
+      this.begin(this.waiting.shift()!);
+    }
+  }
+
+  private begin(run: Run): void {
+    // Node passes a detached buffer on as if it were whole, and nothing arrives.
+    if (run.transfer.some(isDetached)) {
+      run.reject(detachedError());
       return;
     }
     this.thread ??= this.spawn();
-    this.current = { id: ++this.lastId, run };
+    const id = ++this.lastId;
+    try {
+      this.thread.post({ kind: 'run', id, task: run.task }, run.transfer);
+    } catch (error) {
+      run.reject(notSent(run, error));
+      return;
+    }
+    this.current = { id, run };
     this.thread.hold(true);
-    this.thread.post({ kind: 'run', id: this.lastId, task: run.task }, run.transfer);
   }
 
   private receive(message: FromWorker): void {
@@ -167,5 +182,23 @@ export class Line {
     this.current = undefined;
     this.thread?.terminate();
     this.thread = undefined;
+  }
+}
+
+/** Why a run can't be passed to a worker, which takes plain data only. */
+function notSent({ task }: Run, error: unknown): QmcfError {
+  const options = 'options' in task ? Object.entries(task.options) : [];
+  const [name] = options.find(([, value]) => !isCloneable(value)) ?? [];
+  return name === undefined
+    ? new QmcfError('malformedInput', `What was given can't be passed to the worker: ${messageOf(error)}`)
+    : new QmcfError('invalidOption', `The option ${name} must be plain data, no proxy or function: ${messageOf(error)}`);
+}
+
+function isCloneable(value: unknown): boolean {
+  try {
+    structuredClone(value);
+    return true;
+  } catch {
+    return false;
   }
 }

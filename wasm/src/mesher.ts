@@ -1,3 +1,4 @@
+import { detachedError, isDetached } from './detached.js';
 import { cancelledError, QmcfError } from './errors.js';
 import { Line, type Platform, type Run } from './line.js';
 import type { Input, Task } from './protocol.js';
@@ -19,11 +20,17 @@ type NumberArray = Uint8Array | Uint32Array | Float64Array | Float32Array;
  * along, so it is always copied; not by slice(), which for a Buffer of Node makes another view.
  */
 function own<T extends NumberArray>(array: T, Type: new (source: T) => T, transfer: boolean): T {
+  if (isDetached(array.buffer)) {
+    throw detachedError();
+  }
   const whole = array.byteLength === array.buffer.byteLength && array.buffer instanceof ArrayBuffer;
   return transfer && whole ? array : new Type(array);
 }
 
 function toInput(model: ModelInput, transfer: boolean): { input: Input; buffers: ArrayBuffer[] } {
+  if (model instanceof ArrayBuffer && isDetached(model)) {
+    throw detachedError();
+  }
   if (model instanceof ArrayBuffer || model instanceof Uint8Array) {
     const bytes = own(model instanceof Uint8Array ? model : new Uint8Array(model), Uint8Array, transfer);
     return { input: { bytes }, buffers: [bytes.buffer as ArrayBuffer] };

@@ -25,11 +25,11 @@ const platform: Platform = {
 };
 
 function getBytes(address: string | URL): Promise<Response | BufferSource> {
-  return /^https?:/.test(String(address)) ? fetch(address) : readFile(fileOf(address));
+  return /^(https?|data):/i.test(String(address)) ? fetch(address) : readFile(fileOf(address));
 }
 
 function fileOf(address: string | URL): string | URL {
-  return typeof address === 'string' && /^(file|data):/.test(address) ? new URL(address) : address;
+  return typeof address === 'string' && /^file:/i.test(address) ? new URL(address) : address;
 }
 
 /**

@@ -1,4 +1,5 @@
 import createCore, { type Core, type Outcome } from './qmcf.js';
+import { messageOf } from './load.js';
 import type { FromWorker, RunMessage, StartMessage, Task, ToWorker } from './protocol.js';
 import { stages } from './tables.js';
 
@@ -57,6 +58,15 @@ function unpack(value: unknown, transfer: ArrayBuffer[]): unknown {
   return Object.fromEntries(entries) as unknown;
 }
 
+/** Engines say it in words of their own; a RangeError is about memory unless it is about the stack. */
+function isOutOfMemory(error: unknown, abortReason: string): boolean {
+  const message = messageOf(error);
+  return (
+    /OOM|enlarge memory|allocation failed|out of memory/i.test(`${abortReason} ${message}`) ||
+    (error instanceof RangeError && !/call stack/i.test(message))
+  );
+}
+
 class Server {
   private abortReason = '';
 
@@ -68,16 +78,21 @@ class Server {
 
   static start(port: Port, { module, cancelFlag }: StartMessage): Server {
     const watch = new Watch(port, cancelFlag && new Int32Array(cancelFlag));
-    const core = createCore({
-      instantiateWasm(imports, done) {
-        void WebAssembly.instantiate(module, imports).then((instance) => done(instance, module));
-        return {};
-      },
-      onAbort: (what) => (server.abortReason = String(what)),
-      onReport: (stage, fraction) => watch.report(stage, fraction),
-      print: () => {},
-      printErr: () => {},
+    const core = new Promise<Core>((resolve, reject) => {
+      createCore({
+        instantiateWasm(imports, done) {
+          // The core itself never hears of an instance that could not be made, of lack of memory for one.
+          WebAssembly.instantiate(module, imports).then((instance) => done(instance, module)).catch(reject);
+          return {};
+        },
+        onAbort: (what) => (server.abortReason = String(what)),
+        onReport: (stage, fraction) => watch.report(stage, fraction),
+        print: () => {},
+        printErr: () => {},
+      }).then(resolve, reject);
     });
+    // Each run tells why there is no core. An unhandled rejection would end Node's worker before the first one.
+    core.catch(() => {});
     const server = new Server(port, core, watch);
     return server;
   }
@@ -95,9 +110,8 @@ class Server {
       const value = unpack(outcome.value, transfer);
       this.port.post({ kind: 'done', id, value }, transfer);
     } catch (error) {
-      const message = error instanceof Error ? error.message : String(error);
-      const outOfMemory = /OOM|enlarge memory|allocation failed|out of memory/i.test(`${this.abortReason} ${message}`);
-      this.port.post({ kind: 'crashed', id, outOfMemory, message }, []);
+      const outOfMemory = isOutOfMemory(error, this.abortReason);
+      this.port.post({ kind: 'crashed', id, outOfMemory, message: messageOf(error) }, []);
     }
   }
 }

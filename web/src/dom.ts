@@ -49,6 +49,15 @@ export function show(element: HTMLElement, visible: boolean): void {
   }
 }
 
+/** Marks what was typed as wrong, or no longer. */
+export function setInvalid(input: HTMLInputElement, invalid: boolean): void {
+  if (invalid) {
+    input.setAttribute('aria-invalid', 'true');
+  } else {
+    input.removeAttribute('aria-invalid');
+  }
+}
+
 /** Sets the text without a change where there is none, so that nothing is read out twice. */
 export function setText(element: HTMLElement, text: string): void {
   if (element.textContent !== text) {

@@ -15,18 +15,21 @@ export function length(value: number): string {
   return Number(value.toPrecision(4)).toString();
 }
 
+/** In place of what was not measured. */
+export const none = '–';
+
 /** 0.0 % to 100 %; never "100 %" for what is not all. */
 export function percent(share: number | null | undefined): string {
   if (share === null || share === undefined) {
-    return 'n/a';
+    return none;
   }
   const rounded = Math.floor(share * 1000) / 10;
   return `${rounded === 100 ? '100' : rounded.toFixed(1)} %`;
 }
 
-/** Three decimals, or n/a where there is no finite value. */
+/** Three decimals, or a dash where there is no finite value. */
 export function figure(value: number | null | undefined): string {
-  return value === null || value === undefined ? 'n/a' : value.toFixed(3);
+  return value === null || value === undefined ? none : value.toFixed(3);
 }
 
 /** 0.8 s, 12 s, 1 min 05 s */

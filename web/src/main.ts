@@ -32,7 +32,7 @@ const panel = el(
     modelSection(store, open),
     sizeSection(store, session),
     optionsSection(store, session),
-    resultSection(store, goTo),
+    resultSection(store, goToMade),
   ),
   footer(store, session),
 );
@@ -123,15 +123,21 @@ function markTarget(state: State, before: State): void {
 /** Chooses something and moves the camera there. */
 function goTo(target: Target): void {
   closeSheet();
-  if (target.kind === 'element') {
-    session.setView('mesh');
-  }
   store.update({ chosen: target });
   // Once it is drawn: the listeners are called in a microtask that is queued already.
   queueMicrotask(() => {
     measureFreeArea();
     viewer?.zoomTo(target);
   });
+}
+
+/** The same for something of the mesh, in a view that knows it by this number. */
+function goToMade(target: Target): void {
+  const { mesh, model } = store.state;
+  if (target.kind === 'element' || mesh?.part !== model?.part) {
+    session.setView('mesh');
+  }
+  goTo(target);
 }
 
 trackFreeArea();

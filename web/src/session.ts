@@ -1,9 +1,28 @@
-import { createMesher, QmcfError, type Mesher, type OutputFormat, type ProgressReport } from 'qmcf';
+import { createMesher, type Mesher, type OutputFormat, type ProgressReport } from 'qmcf';
 import * as format from './format.js';
 import { parseSizes } from './sizes_file.js';
 import type { Sample } from './samples.js';
 import { stageLabel, TaskProgress } from './stages.js';
-import { fieldSettings, linkSizes, optionsKey, optionsOf, type Running, type Settings, type State, type Store, type View } from './state.js';
+import {
+  fieldSettings,
+  initialState,
+  linkSizes,
+  optionsKey,
+  optionsOf,
+  seenPart,
+  type Model,
+  type Running,
+  type Settings,
+  type State,
+  type Store,
+  type View,
+} from './state.js';
+
+/** How a run of the core is watched and stopped. */
+interface Control {
+  readonly signal: AbortSignal;
+  readonly onProgress: (progress: ProgressReport) => void;
+}
 
 /** Everything that is done with the core: opens parts, computes fields and meshes, one at a time. */
 export class Session {
@@ -25,8 +44,8 @@ export class Session {
   }
 
   async openSample(sample: Sample): Promise<void> {
-    await this.open(sample.file, async () => {
-      const response = await fetch(sample.url);
+    await this.open(sample.file, async (signal) => {
+      const response = await fetch(sample.url, { signal });
       if (!response.ok) {
         throw new Error(`The sample could not be loaded (status ${response.status}).`);
       }
@@ -65,12 +84,14 @@ export class Session {
     }
     await this.run('mesh', 'Generating the mesh', async (mesher, control) => {
       const start = performance.now();
+      const found = await withFeatures(model, settings.featureAngle, mesher, control);
       const result = await mesher.mesh(model.bytes, { ...optionsOf(settings), trace: record }, control);
       const seconds = (performance.now() - start) / 1000;
       const { quads, triangles } = result.report.quality;
       const parts = [format.counted(quads, 'quad'), ...(triangles > 0 ? [format.counted(triangles, 'triangle')] : [])];
       this.store.update({
-        mesh: { result, optionsKey: optionsKey(settings), seconds },
+        model: found,
+        mesh: { result, optionsKey: optionsKey(settings), seconds, part: found.part },
         view: record ? 'front' : 'mesh',
         hover: undefined,
         chosen: undefined,
@@ -97,18 +118,21 @@ export class Session {
     }
   }
 
-  private async open(name: string, load: () => Promise<ArrayBuffer>): Promise<void> {
+  private async open(name: string, load: (signal: AbortSignal) => Promise<ArrayBuffer>): Promise<void> {
     await this.run('open', `${name} can't be used`, async (mesher, control) => {
-      const bytes = new Uint8Array(await load());
-      const { settings } = this.store.state;
-      const part = await mesher.inspect(bytes, { featureAngle: settings.featureAngle }, control);
+      const { quads: quadsBefore } = this.store.state.settings;
+      const bytes = new Uint8Array(await load(control.signal));
+      const { featureAngle } = this.store.state.settings;
+      const part = await mesher.inspect(bytes, { featureAngle }, control);
       const area = part.report.faces.reduce((sum, face) => sum + face.area, 0);
-      // Lengths in units of another part mean nothing here.
-      const fresh = { sizedBy: 'quads', quads: 3000, sizes: undefined, curvature: undefined } as const;
-      const sized = linkSizes({ ...settings, ...fresh }, area);
+      const { settings } = this.store.state;
+      // Lengths in units of another part mean nothing here; a count that was typed in the meantime is meant for this one.
+      const isMeant = settings.sizedBy === 'quads' && settings.quads !== quadsBefore;
+      const quads = isMeant ? settings.quads : initialState.settings.quads;
+      const fresh = { sizedBy: 'quads', quads, sizes: undefined, curvature: undefined } as const;
       this.store.update({
-        model: { name, bytes, part, area, featureAngle: settings.featureAngle },
-        settings: sized,
+        model: { name, bytes, part, area, featureAngle },
+        settings: linkSizes({ ...settings, ...fresh }, area),
         field: undefined,
         mesh: undefined,
         hover: undefined,
@@ -123,10 +147,10 @@ export class Session {
 
   /** Shows the part, its field, its mesh or how that was made. */
   setView(view: View): void {
-    const { display } = this.store.state;
-    // Elements are seen in the mesh only; faces and edges everywhere.
-    const { chosen } = this.store.state;
-    const stays = chosen?.kind !== 'element' || view === 'mesh';
+    const { state } = this.store;
+    const { display, chosen } = state;
+    // Elements are seen in the mesh only; faces and edges everywhere, by the same number where it is the same part.
+    const stays = chosen?.kind === 'element' ? view === 'mesh' : seenPart(state) === seenPart({ ...state, view });
     this.store.update({
       view,
       display: { ...display, crosses: view === 'field' },
@@ -156,12 +180,14 @@ export class Session {
     }
     if (model.featureAngle !== settings.featureAngle) {
       await this.run('open', 'The edges could not be found', async (mesher, control) => {
-        const { featureAngle } = settings;
-        const part = await mesher.inspect(model.bytes, { featureAngle }, control);
+        const found = await withFeatures(model, settings.featureAngle, mesher, control);
+        const { view, hover, chosen } = this.store.state;
+        // The mesh that is seen keeps the part that it was made of.
+        const stays = view === 'mesh';
         this.store.update({
-          model: { ...model, part, featureAngle },
-          hover: undefined,
-          chosen: undefined,
+          model: found,
+          hover: stays ? hover : undefined,
+          chosen: stays ? chosen : undefined,
           status: 'Edges found again.',
         });
       });
@@ -185,10 +211,7 @@ export class Session {
   private async run(
     task: Running['task'],
     failure: string,
-    work: (
-      mesher: Mesher,
-      control: { signal: AbortSignal; onProgress: (progress: ProgressReport) => void },
-    ) => Promise<void>,
+    work: (mesher: Mesher, control: Control) => Promise<void>,
   ): Promise<void> {
     this.abort?.abort();
     const abort = new AbortController();
@@ -209,7 +232,7 @@ export class Session {
         },
       });
     } catch (error) {
-      this.settle(task, failure, error, this.abort === abort);
+      this.settle(task, failure, abort.signal.aborted ? undefined : error, this.abort === abort);
     } finally {
       if (this.abort === abort) {
         this.abort = undefined;
@@ -218,8 +241,8 @@ export class Session {
     }
   }
 
+  /** What follows from a run that came to nothing: it failed with an error, or was cancelled if there is none. */
   private settle(task: Running['task'], failure: string, error: unknown, isLatest: boolean): void {
-    const cancelled = error instanceof QmcfError && error.code === 'cancelled';
     if (!isLatest) {
       return;
     }
@@ -230,7 +253,7 @@ export class Session {
     } else if (task === 'open' && state.model) {
       this.changeSettings({ featureAngle: state.model.featureAngle });
     }
-    if (cancelled) {
+    if (error === undefined) {
       this.store.update({ status: 'Cancelled.' });
     } else {
       this.fail(failure, error);
@@ -250,6 +273,13 @@ function needsUpkeep({ model, settings, field, display, running }: State): boole
   const featuresOld = model.featureAngle !== settings.featureAngle;
   const fieldOld = display.crosses && field?.optionsKey !== optionsKey(fieldSettings(settings));
   return featuresOld || fieldOld;
+}
+
+/** The model with its faces and edges at this angle. */
+async function withFeatures(model: Model, featureAngle: number, mesher: Mesher, control: Control): Promise<Model> {
+  return model.featureAngle === featureAngle
+    ? model
+    : { ...model, part: await mesher.inspect(model.bytes, { featureAngle }, control), featureAngle };
 }
 
 function withoutField(state: State): Partial<State> {

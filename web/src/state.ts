@@ -70,6 +70,11 @@ export interface Made<T> {
   readonly seconds: number;
 }
 
+/** A mesh, and the part with the faces and edges that it was made of: the feature angle may be another one by now. */
+export interface MadeMesh extends Made<MeshResult> {
+  readonly part: InspectResult;
+}
+
 /** Work that is under way. */
 export interface Running {
   readonly task: 'open' | 'field' | 'mesh';
@@ -94,7 +99,7 @@ export interface State {
   readonly view: View;
   readonly display: Display;
   readonly field: Made<FieldResult> | undefined;
-  readonly mesh: Made<MeshResult> | undefined;
+  readonly mesh: MadeMesh | undefined;
   readonly hover: Hover | undefined;
   /** What was clicked on or looked up. */
   readonly chosen: Target | undefined;
@@ -135,6 +140,11 @@ export const initialState: State = {
   status: 'Open a part to begin.',
   galleryOpen: true,
 };
+
+/** The part whose faces and edges are seen, looked up and told by their numbers. */
+export function seenPart({ view, model, mesh }: Pick<State, 'view' | 'model' | 'mesh'>): InspectResult | undefined {
+  return view === 'mesh' && mesh ? mesh.part : model?.part;
+}
 
 /** Whether sizes can fit the field: one mode has none, and the sizes of a file are what they are. */
 export function canFit({ mode, sizedBy }: Settings): boolean {

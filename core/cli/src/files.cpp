@@ -49,18 +49,22 @@ std::string temporaryName(const fs::path& target) {
 }  // namespace
 
 Result<std::vector<std::byte>> readFile(const std::string& path) {
+  constexpr std::uintmax_t kLargestFile = std::uintmax_t{1} << 31U;  // A device may never end.
+  const Error tooLarge{ErrorCode::tooLarge, "The file has more than 2 GiB, which is more than can be read.", {}};
   std::error_code ignored;
   if (fs::is_directory(path, ignored)) return readError("it is a folder");
   const File file(std::fopen(path.c_str(), "rb"));
   if (!file) return readError(lastError());
-  const auto size = fs::is_regular_file(path, ignored) ? fs::file_size(path, ignored) : 0;
+  std::uintmax_t size = fs::is_regular_file(path, ignored) ? fs::file_size(path, ignored) : 0;
+  if (ignored || size == static_cast<std::uintmax_t>(-1)) size = 0;
+  if (size > kLargestFile) return tooLarge;
   // One byte more than expected shows the end of the file without growing the buffer.
-  std::vector<std::byte> content(
-      ignored || size == static_cast<std::uintmax_t>(-1) ? 1 : static_cast<std::size_t>(size) + 1);
+  std::vector<std::byte> content(static_cast<std::size_t>(size) + 1);
   std::size_t used = 0;
   while (true) {
     used += std::fread(content.data() + used, 1, content.size() - used, file.get());
     if (used < content.size()) break;
+    if (used > kLargestFile) return tooLarge;
     content.resize(std::max<std::size_t>(2 * content.size(), std::size_t{1} << 16U));
   }
   if (std::ferror(file.get()) != 0) return readError(lastError());

@@ -10,7 +10,7 @@
 
 namespace qmcf::cli {
 
-/// The whole content of a file.
+/// The whole content of a file or pipe. Errors: malformedInput when it can't be read, tooLarge above 2 GiB.
 Result<std::vector<std::byte>> readFile(const std::string& path);
 
 /// Why the file could not be written, if so. Called before a long run, so that its result is not lost at the end.

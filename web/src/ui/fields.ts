@@ -1,4 +1,4 @@
-import { el, uniqueId } from '../dom.js';
+import { el, setInvalid, uniqueId } from '../dom.js';
 
 /** A number that the user types; only numbers in the range are passed on. */
 export interface NumberField {
@@ -33,11 +33,11 @@ export function numberField(settings: NumberFieldSettings): NumberField {
   input.addEventListener('input', () => {
     const value = input.valueAsNumber;
     if (onClear && input.value === '' && !input.validity.badInput) {
-      input.removeAttribute('aria-invalid');
+      setInvalid(input, false);
       onClear();
       return;
     }
-    input.toggleAttribute('aria-invalid', !isValid(value));
+    setInvalid(input, !isValid(value));
     if (isValid(value)) {
       onChange(value);
     }
@@ -49,7 +49,7 @@ export function numberField(settings: NumberFieldSettings): NumberField {
     set(text) {
       if (document.activeElement !== input) {
         input.value = text;
-        input.removeAttribute('aria-invalid');
+        setInvalid(input, false);
       }
     },
   };

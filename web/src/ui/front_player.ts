@@ -102,7 +102,11 @@ export function frontPlayer(store: Store, draw: (playback: Playback | undefined)
     const trace = store.state.mesh?.result.trace;
     playback = trace && new Playback(trace, which);
     slider.max = String(Math.max(0, (playback?.length ?? 1) - 1));
-    go(0);
+    if (playback) {
+      go(0);
+    } else {
+      draw(undefined);
+    }
   }
 
   function go(position: number): void {
@@ -169,7 +173,6 @@ export function frontPlayer(store: Store, draw: (playback: Playback | undefined)
       );
       face.replaceChildren(el('option', { value: '' }, 'All, one after the other'), ...options);
       choose(undefined);
-      draw(undefined);
     }
     show(element, view === 'front' && trace !== undefined);
     if (view !== 'front') {

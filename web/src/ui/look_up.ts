@@ -1,5 +1,5 @@
-import { el, show } from '../dom.js';
-import type { Store, Target } from '../state.js';
+import { el, setInvalid, show } from '../dom.js';
+import { seenPart, type Store, type Target } from '../state.js';
 
 type Kind = Extract<Target['kind'], 'face' | 'edge'>;
 
@@ -12,7 +12,7 @@ export function lookUp(store: Store): HTMLElement {
     el('option', { value: 'edge' }, 'Edge'),
   );
   const number = el('input', { type: 'number', min: 0, step: 1, inputmode: 'numeric', 'aria-label': 'Its number' });
-  const amount = (of: Kind) => store.state.model?.part.report.counts[of === 'face' ? 'faces' : 'edges'];
+  const amount = (of: Kind) => seenPart(store.state)?.report.counts[of === 'face' ? 'faces' : 'edges'];
   const howMany = () => {
     const counted = amount(kind.value as Kind);
     return typeof counted === 'object' ? counted.total : (counted ?? 0);
@@ -20,7 +20,7 @@ export function lookUp(store: Store): HTMLElement {
   const choose = () => {
     const id = number.valueAsNumber;
     const isValid = Number.isInteger(id) && id >= 0 && id < howMany();
-    number.toggleAttribute('aria-invalid', number.value !== '' && !isValid);
+    setInvalid(number, number.value !== '' && !isValid);
     store.update({ chosen: isValid ? { kind: kind.value as Kind, id } : undefined });
   };
   number.addEventListener('input', choose);
@@ -40,7 +40,7 @@ export function lookUp(store: Store): HTMLElement {
     } else {
       number.value = '';
     }
-    number.removeAttribute('aria-invalid');
+    setInvalid(number, false);
   });
   return element;
 }

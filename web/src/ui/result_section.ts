@@ -17,7 +17,7 @@ export function resultSection(store: Store, zoomTo: (target: Target) => void): H
     show(section, mesh !== undefined);
     show(old, mesh !== undefined && mesh.optionsKey !== optionsKey(state.settings));
     if (mesh && (state === before || mesh !== before.mesh)) {
-      const hasCreases = state.model?.part.edgeKinds.includes('sharp') ?? true;
+      const hasCreases = mesh.part.edgeKinds.includes('sharp');
       body.replaceChildren(...report(mesh, hasCreases, zoomTo));
     }
   });
@@ -115,9 +115,9 @@ function figures({ quality, sizeConformity }: MeshReport, size: number, tellsCre
     ...(typeof quality.boundaryRecall === 'number'
       ? ([['Boundary kept', format.percent(quality.boundaryRecall)]] as [string, string][])
       : []),
-    ['Largest distance', typeof distance === 'number' ? `${((100 * distance) / size).toFixed(1)} % of size` : 'n/a'],
+    ['Largest distance', typeof distance === 'number' ? `${((100 * distance) / size).toFixed(1)} % of size` : format.none],
   ];
-  const head = el('tr', {}, el('th', { scope: 'col' }, 'Shape'), el('th', { scope: 'col' }, 'mean'), el('th', { scope: 'col' }, 'worst 1 %'), el('th', { scope: 'col' }, 'worst'));
+  const head = el('tr', {}, el('th', { scope: 'col' }, 'Shape of quads'), el('th', { scope: 'col' }, 'mean'), el('th', { scope: 'col' }, 'worst 1 %'), el('th', { scope: 'col' }, 'worst'));
   const rows = shapes.map(([label, { mean, p1, worst }]) =>
     el('tr', {}, el('th', { scope: 'row' }, label), ...[mean, p1, worst].map((v) => el('td', {}, format.figure(v)))),
   );

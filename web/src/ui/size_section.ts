@@ -38,7 +38,7 @@ export function sizeSection(store: Store, session: Session): HTMLElement {
   const fit = toggle(
     'Fit sizes to the field',
     (fitSizes) => session.changeSettings({ fitSizes }),
-    'Let sizes vary by up to 1.65 either way, where that promises better elements: fewer rows end inside faces.',
+    'Let sizes vary, mostly by less than 1.5 and by 3 at most either way, where that promises better elements: fewer rows end inside faces.',
   );
   const id = uniqueId();
   const slider = el('input', { id, type: 'range', min: 0, max: 1, step: 0.005, 'aria-label': 'Fineness' });

@@ -1,6 +1,6 @@
 import type { EdgeKind, FaceReport, InspectResult } from 'qmcf';
 import * as format from '../format.js';
-import type { State, Target } from '../state.js';
+import { seenPart, type State, type Target } from '../state.js';
 
 /** What is known of a face, edge or element, for a person. */
 export interface TargetInfo {
@@ -42,9 +42,11 @@ export function faceTitle(face: number, name: string | undefined): string {
   return name === undefined || name === `face ${face}` ? `Face ${face}` : `Face ${face}, ${name}`;
 }
 
-function describeFace(id: number, { model, mesh, view }: State): TargetInfo | undefined {
-  const face = model?.part.report.faces[id];
-  if (!model || !face) {
+function describeFace(id: number, state: State): TargetInfo | undefined {
+  const { mesh, view } = state;
+  const part = seenPart(state);
+  const face = part?.report.faces[id];
+  if (!part || !face) {
     return undefined;
   }
   const edges = new Set(face.loops.flat().map(({ edge }) => edge)).size;
@@ -56,7 +58,7 @@ function describeFace(id: number, { model, mesh, view }: State): TargetInfo | un
   return {
     title: faceTitle(id, face.name),
     facts: [
-      ['Type', `${isFlat(model.part, id) ? 'flat' : 'curved'}${edges === 0 ? ', closed' : ''}`],
+      ['Type', `${isFlat(part, id) ? 'flat' : 'curved'}${edges === 0 ? ', closed' : ''}`],
       ['Area', format.length(face.area)],
       ['Border', edges === 0 ? 'none' : `${format.counted(face.loops.length, 'loop')}, ${format.counted(edges, 'edge')}`],
       ['Triangles', format.count(face.triangles)],
@@ -65,13 +67,14 @@ function describeFace(id: number, { model, mesh, view }: State): TargetInfo | un
   };
 }
 
-function describeEdge(id: number, { model }: State): TargetInfo | undefined {
-  const edge = model?.part.report.edges[id];
-  if (!model || !edge) {
+function describeEdge(id: number, state: State): TargetInfo | undefined {
+  const part = seenPart(state);
+  const edge = part?.report.edges[id];
+  if (!part || !edge) {
     return undefined;
   }
-  const faces = model.part.report.faces.flatMap(({ loops }, face) => (loops.flat().some((c) => c.edge === id) ? [face] : []));
-  const shape = edge.start === edge.end ? 'closed' : isStraight(model.part, id, edge.length) ? 'straight' : 'curved';
+  const faces = part.report.faces.flatMap(({ loops }, face) => (loops.flat().some((c) => c.edge === id) ? [face] : []));
+  const shape = edge.start === edge.end ? 'closed' : isStraight(part, id, edge.length) ? 'straight' : 'curved';
   return {
     title: `Edge ${id}`,
     facts: [

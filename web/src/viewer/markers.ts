@@ -59,7 +59,7 @@ export function markerPoints(
     fragmentShader,
     transparent: true,
     uniforms: {
-      size: { value: size * Math.min(2, window.devicePixelRatio) },
+      size: { value: size },
       positive: { value: colors.positive },
       negative: { value: colors.negative },
       ring: { value: colors.ring },
@@ -67,5 +67,6 @@ export function markerPoints(
   });
   const points = new Points(geometry, material);
   points.renderOrder = 3;
+  points.onBeforeRender = (renderer) => (material.uniforms['size']!.value = size * renderer.getPixelRatio());
   return points;
 }

@@ -1,4 +1,4 @@
-import { DirectionalLight, HemisphereLight, MathUtils, PerspectiveCamera, Scene, Vector3, WebGLRenderer } from 'three';
+import { DirectionalLight, HemisphereLight, MathUtils, PerspectiveCamera, Scene, Vector2, Vector3, WebGLRenderer } from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 import type { FieldResult, InspectResult, MeshResult } from 'qmcf';
 import type { Playback } from '../replay.js';
@@ -58,7 +58,6 @@ export class Viewer {
     this.renderer = new WebGLRenderer({ canvas, antialias: true, alpha: true });
     // Asking for the log of a shader waits until it is compiled and everything before it is drawn.
     this.renderer.debug.checkShaderErrors = false;
-    this.renderer.setPixelRatio(Math.min(2, window.devicePixelRatio));
     this.scene.add(this.partLayer, this.fieldLayer, this.meshLayer, this.frontLayer, this.highlight, this.camera, this.sky);
     this.addCameraLights();
     this.camera.up.set(0, 0, 1);
@@ -69,6 +68,7 @@ export class Viewer {
     this.controls.addEventListener('change', () => this.invalidate());
     canvas.addEventListener('webglcontextrestored', () => this.invalidate());
     new ResizeObserver(() => this.resize()).observe(canvas);
+    this.watchPixelRatio();
     const dark = window.matchMedia('(prefers-color-scheme: dark)');
     dark.addEventListener('change', () => this.setPalette(dark.matches));
     this.setPalette(dark.matches);
@@ -233,13 +233,40 @@ export class Viewer {
     if (width === 0 || height === 0) {
       return;
     }
-    this.renderer.setSize(width, height, false);
+    const isResized = this.setBufferSize(width, height);
     this.camera.aspect = width / height;
     const { left, top } = this.free;
     const offsetX = Math.round(width / 2 - (left + this.free.width / 2));
     const offsetY = Math.round(height / 2 - (top + this.free.height / 2));
     this.camera.setViewOffset(width, height, offsetX, offsetY, width, height);
-    this.invalidate();
+    if (isResized) {
+      // Another size empties the canvas, and this frame's turn to draw may be over.
+      this.draw();
+    } else {
+      this.invalidate();
+    }
+  }
+
+  /** Whether that changed it. */
+  private setBufferSize(width: number, height: number): boolean {
+    const ratio = Math.min(2, window.devicePixelRatio);
+    const isSame = this.renderer.getSize(new Vector2()).equals(new Vector2(width, height));
+    if (isSame && this.renderer.getPixelRatio() === ratio) {
+      return false;
+    }
+    this.renderer.setPixelRatio(ratio);
+    this.renderer.setSize(width, height, false);
+    return true;
+  }
+
+  /** The ratio changes when the page is zoomed or moved to another screen. */
+  private watchPixelRatio(): void {
+    const current = window.matchMedia(`(resolution: ${window.devicePixelRatio}dppx)`);
+    const changed = () => {
+      this.resize();
+      this.watchPixelRatio();
+    };
+    current.addEventListener('change', changed, { once: true });
   }
 
   private setPalette(dark: boolean): void {
